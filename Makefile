@@ -1,0 +1,82 @@
+# The only place that knows how the environment is made. `make` lists the targets.
+#
+#   PYTHON  the interpreter that the environment is made from (3.11 or newer)
+#   CORES   how many cores the study and the tests may use
+
+PYTHON ?= python3
+CORES ?= 2
+
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+# Jobs of a workflow call `python` and `mpiexec` by name and must meet the environment's.
+IN_ENVIRONMENT := PATH="$(CURDIR)/$(BIN):$$PATH"
+
+# Packages outside the lock must not be found.
+unexport PYTHONPATH PYTHONHOME
+export PYTHONNOUSERSITE := 1
+
+.DEFAULT_GOAL := help
+.PHONY: help run convergence test lint lock clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
+
+run: $(READY) ## the study of config.yaml: results/, its figures and the exponent
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
+	@$(BIN)/python -m branchcrush.summary results
+
+convergence: $(READY) ## the study of what the exponent owes to numerical choices
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) convergence
+
+test: lint ## the linters, then every test
+	$(IN_ENVIRONMENT) pytest -n $(CORES)
+
+lint: $(READY) ## style and the workflow's own checks
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(IN_ENVIRONMENT) snakemake --lint
+
+# uv installs in a quarter of pip's time but does not read pip's settings, so where the index is a
+# mirror named only to pip, pip installs. Without build isolation a package that comes as source is
+# built by the pinned setuptools instead of by the newest one.
+PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+UV_INSTALL := $(BIN)/uv pip install --quiet --no-config --python $(BIN)/python
+FROM_LOCK := --no-build-isolation --require-hashes -r requirements.lock
+
+$(VENV)/.packages: requirements.lock
+	@command -v $(PYTHON) >/dev/null \
+	  || { echo "error: no $(PYTHON) here; install Python 3.11 or newer, or name one: make PYTHON=python3.13" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "error: $(PYTHON) is %d.%d, and 3.11 or newer is needed; name one: make PYTHON=python3.13" % sys.version_info[:2])'
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null \
+	  || { echo "error: $(PYTHON) has no venv module; on Debian and Ubuntu: apt-get install python3-venv" >&2; exit 1; }
+	@echo "Making the environment in $(VENV): a quarter of a minute on a fast network, 1 GB"
+	@$(PYTHON) -m venv --clear $(VENV)
+	@awk '/^[^ #]/ {keep = /^(setuptools|uv)==/} keep' requirements.lock > $(VENV)/bootstrap.txt
+	@$(PIP_INSTALL) --require-hashes -r $(VENV)/bootstrap.txt
+	@$(UV_INSTALL) $(FROM_LOCK) \
+	  || { echo "uv did not succeed; pip is slower and tries again" >&2; $(PIP_INSTALL) $(FROM_LOCK); } \
+	  || { echo "error: no environment. Where no wheel fits (Python 3.14 and newer, musl), a C compiler is needed: apt-get install gcc python3-dev" >&2; exit 1; }
+	@touch $@
+
+$(READY): $(VENV)/.packages pyproject.toml
+	@$(PIP_INSTALL) --no-deps --no-build-isolation --editable .
+	@touch $@
+
+# What is in the lock stays at its version: `make lock UPGRADE=--upgrade` moves everything to the
+# newest. uv ignores pip's settings, so no local index lends its own hashes; without
+# --emit-index-url no address is written either.
+lock: ## write requirements.lock anew from pyproject.toml
+	$(PYTHON) -m venv --clear build/lock
+	build/lock/bin/python -m pip install --quiet --disable-pip-version-check uv
+	env -u UV_INDEX -u UV_EXTRA_INDEX_URL -u UV_FIND_LINKS -u UV_DEFAULT_INDEX -u UV_INDEX_URL \
+	  build/lock/bin/uv pip compile --quiet \
+	  --no-config --no-emit-index-url --universal --python-version 3.11 --fork-strategy fewest \
+	  --generate-hashes --extra dev --custom-compile-command "make lock" $(UPGRADE) \
+	  --output-file requirements.lock pyproject.toml
+
+clean: ## remove the environment and what the tools leave; results/ stays
+	rm -rf $(VENV) build .pytest_cache .ruff_cache .hypothesis src/*.egg-info
+	find src tests workflow -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,12 @@
+"""Particle crushing seen through branch lengths: pack, compress, and split the elastic energy.
+
+The package holds the science; the Snakefile beside it holds the study.
+
+>>> import branchcrush
+>>> branchcrush.__version__.count(".")
+2
+"""
+
+from importlib.metadata import version
+
+__version__ = version("branchcrush")

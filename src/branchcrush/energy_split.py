@@ -1,0 +1,294 @@
+"""The energy-split function f(l) = (l/l_r)^n: how elastic energy divides among branches.
+
+Energy is broad at every length (its coefficient of variation is about 1), so the power law is
+fitted as a mean of gamma-distributed energies with a logarithmic link: each branch counts alike,
+whatever the scale of its energy, and the amplitude is free.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from branchcrush.errors import FitError
+
+_ITERATIONS = 100
+_CONVERGED = 1e-12
+
+
+class PowerLaw(NamedTuple):
+    """E(l) = amplitude (l/l_scale)^exponent; arrays when fitted to many data sets at once."""
+
+    amplitude: float | np.ndarray
+    exponent: float | np.ndarray
+
+
+class Interval(NamedTuple):
+    """An estimate and its confidence interval; low and high are nan when there is none."""
+
+    estimate: float
+    low: float
+    high: float
+
+
+def bin_edges(radius_min, radius_max, bins=20):
+    r"""Return the edges of equal bins on [2 R_min, 2 R_max].
+
+    Parameters
+    ----------
+    radius_min, radius_max : float
+        [m]
+    bins : int
+
+    Returns
+    -------
+    ndarray, shape (bins+1,)
+        [m]
+
+    Examples
+    --------
+    >>> bin_edges(0.5, 1.5, 2).tolist()
+    [1.0, 2.0, 3.0]
+
+    References
+    ----------
+    Paper, text before Eq. 25.
+    """
+    return np.linspace(2.0 * radius_min, 2.0 * radius_max, bins + 1)
+
+
+def binned_sums(length, energy, edges):
+    r"""Return, for each bin, the branches, the sum of their lengths and of their energies.
+
+    .. math:: N_b, \quad \sum_b l, \quad \psi_b = \sum_b E
+
+    Parameters
+    ----------
+    length, energy : array_like, shape (M,)
+        Branch length R_i + R_j [m] and elastic energy [J] of each branch.
+    edges : array_like, shape (n+1,)
+        [m]; a length beyond the first or last edge, by rounding, belongs to the end bin.
+
+    Returns
+    -------
+    ndarray, shape (3, n)
+        Counts [-], lengths [m], energies [J].
+
+    Examples
+    --------
+    >>> binned_sums([1.5, 1.5, 2.5], [1.0, 3.0, 5.0], [1.0, 2.0, 3.0]).tolist()
+    [[2.0, 1.0], [3.0, 2.5], [4.0, 5.0]]
+
+    References
+    ----------
+    Paper, Eqs. 24 and 25; the energy is that of `contact_law`, with its 1/2.
+    """
+    length, energy = np.asarray(length, dtype=float), np.asarray(energy, dtype=float)
+    bins = len(edges) - 1
+    index = np.clip(np.searchsorted(edges, length, side="right") - 1, 0, bins - 1)
+    return np.stack(
+        [np.bincount(index, weights, minlength=bins) for weights in (None, length, energy)]
+    ).astype(float)
+
+
+def power_law_fit(length, energy, weight=1.0):
+    r"""Fit E(l) = A l^n by gamma quasi-likelihood with a logarithmic link.
+
+    .. math:: \sum_b w_b \left(\frac{E_b}{A l_b^n} - 1\right) (1,\ \ln l_b) = 0
+
+    With single branches it is the gamma regression of all of them; with bin means weighted by
+    their counts, the same fit to binned data. Lengths are scaled by their own mean inside, so
+    that metres or millimetres give the same exponent.
+
+    Parameters
+    ----------
+    length : array_like, shape (n,)
+        [m]
+    energy : array_like, shape (..., n)
+        Mean energy at each length; leading axes are independent data sets [J].
+    weight : array_like, broadcast to the shape of energy
+        Number of branches behind each mean; 0 leaves a point out [-].
+
+    Returns
+    -------
+    PowerLaw
+        amplitude A such that E = A (l / 1 m)^n [J], and exponent n.
+
+    Raises
+    ------
+    FitError
+        When fewer than two lengths carry energy, or the fit does not converge.
+
+    Examples
+    --------
+    >>> fit = power_law_fit([1.0, 2.0, 3.0], [5.0, 40.0, 135.0])
+    >>> round(float(fit.amplitude), 9), round(float(fit.exponent), 9)
+    (5.0, 3.0)
+
+    References
+    ----------
+    McCullagh and Nelder (1989), Generalized Linear Models, chapter 8.
+    """
+    length, energy = np.asarray(length, dtype=float), np.asarray(energy, dtype=float)
+    weight = np.broadcast_to(np.asarray(weight, dtype=float), energy.shape)
+    used = (weight > 0) & (energy > 0)
+    if np.any(np.count_nonzero(used & (length > 0), axis=-1) < 2):
+        raise FitError("a power law needs energy at two or more branch lengths")
+    scale = np.average(length, weights=weight.reshape(-1, length.size).sum(axis=0))
+    x = np.log(length / scale)
+    energy_scale = (weight * energy).sum(axis=-1, keepdims=True) / weight.sum(-1, keepdims=True)
+    y = energy / energy_scale
+
+    # Iteratively reweighted least squares; with this link the weights do not change.
+    total = weight.sum(axis=-1)
+    mean_x = (weight * x).sum(axis=-1) / total
+    centred = x - mean_x[..., None]
+    spread = (weight * centred**2).sum(axis=-1)
+    intercept, slope = np.zeros(total.shape), np.full(total.shape, 3.0)
+    for _ in range(_ITERATIONS):
+        residual = y * np.exp(-intercept[..., None] - slope[..., None] * centred) - 1.0
+        # A step is bounded: far from the solution the exponential overshoots.
+        step_intercept = np.clip((weight * residual).sum(axis=-1) / total, -1.0, 1.0)
+        step_slope = np.clip((weight * centred * residual).sum(axis=-1) / spread, -1.0, 1.0)
+        intercept, slope = intercept + step_intercept, slope + step_slope
+        if max(np.abs(step_intercept).max(), np.abs(step_slope).max()) < _CONVERGED:
+            break
+    else:
+        raise FitError("the power-law fit did not converge: too few branches carry energy")
+    log_amplitude = intercept - slope * (mean_x + np.log(scale))
+    return PowerLaw(energy_scale[..., 0] * np.exp(log_amplitude), slope)
+
+
+def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
+    r"""Return the exponent of the binned energies of all seeds, with its confidence interval.
+
+    .. math:: n \pm t_{S-1}\, s_n \sqrt{S/(S-1)}
+
+    Branches of one packing share one force network and are not independent, so whole seeds are
+    drawn with replacement and refitted; s_n is the standard deviation of the refits. Student's t
+    and the factor make up for how little S seeds tell of their own scatter.
+
+    Parameters
+    ----------
+    sums : array_like, shape (S, 3, n)
+        `binned_sums` of each seed.
+    confidence : float
+    resamples : int
+        Draws of S seeds.
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    fit : PowerLaw
+        Of all seeds together.
+    exponent : Interval
+        nan limits with one seed, which tells nothing of its own scatter.
+
+    Raises
+    ------
+    FitError
+        As `power_law_fit`.
+
+    Examples
+    --------
+    >>> sums = [[[9.0, 4.0], [9.0, 8.0], [9.0, 32.0]]] * 3
+    >>> fit, exponent = binned_exponent(sums, rng=np.random.default_rng(1))
+    >>> [round(float(value), 6) for value in exponent]
+    [3.0, 3.0, 3.0]
+
+    References
+    ----------
+    Davison and Hinkley (1997), Bootstrap Methods and their Application, sections 2.3 and 3.8.
+    """
+    sums = np.asarray(sums, dtype=float)
+    seeds = len(sums)
+    counts, lengths, energies = sums.sum(axis=0)
+    filled = counts > 0
+    length = lengths[filled] / counts[filled]
+    fit = power_law_fit(length, energies[filled] / counts[filled], counts[filled])
+    estimate = float(fit.exponent)
+    if seeds == 1:
+        return fit, Interval(estimate, np.nan, np.nan)
+    draws = rng.multinomial(seeds, np.full(seeds, 1.0 / seeds), size=resamples)
+    drawn_counts = draws @ sums[:, 0, filled]
+    drawn_energies = draws @ sums[:, 2, filled]
+    means = drawn_energies / np.maximum(drawn_counts, 1.0)
+    refits = power_law_fit(length, means, drawn_counts).exponent
+    error = refits.std(ddof=1) * np.sqrt(seeds / (seeds - 1.0))
+    half = stats.t.ppf((1.0 + confidence) / 2.0, seeds - 1) * error
+    return fit, Interval(estimate, float(estimate - half), float(estimate + half))
+
+
+def energy_split(sums, fit, radius_max):
+    r"""Return the bins of the energy-split function, scaled by the fitted law.
+
+    .. math:: f(l) = \frac{\psi_b(l)/N_b}{A\, l_r^n}
+
+    l_r is the mean length of the bin nearest to R_max. The paper divides by that bin's own mean
+    (Eq. 26), whose noise then multiplies the whole curve; here f(l_r) is 1 on the fitted law.
+
+    Parameters
+    ----------
+    sums : array_like, shape (3, n)
+        `binned_sums` of all seeds together.
+    fit : PowerLaw
+    radius_max : float
+        [m]
+
+    Returns
+    -------
+    dict of ndarray
+        branch_length_m, branches, mean_energy_J, f; nan where a bin is empty.
+    reference_length : float
+        l_r [m].
+
+    Examples
+    --------
+    >>> sums = np.array([[9.0, 4.0], [9.0, 8.0], [9.0, 32.0]])
+    >>> table, reference = energy_split(sums, PowerLaw(1.0, 3.0), 1.1)
+    >>> table["f"].tolist(), reference
+    ([1.0, 8.0], 1.0)
+
+    References
+    ----------
+    Paper, Eqs. 25 and 26.
+    """
+    counts, lengths, energies = np.asarray(sums, dtype=float)
+    with np.errstate(invalid="ignore"):
+        length, energy = lengths / counts, energies / counts
+    reference = float(length[np.nanargmin(np.abs(length - radius_max))])
+    return {
+        "branch_length_m": length,
+        "branches": counts.astype(int),
+        "mean_energy_J": energy,
+        "f": energy / (fit.amplitude * reference**fit.exponent),
+    }, reference
+
+
+def cubic_r_squared(relative_length, f):
+    r"""Return slope and R^2 of the paper's Fig. 6: f against (l/l_r)^3, a line through 0.
+
+    .. math:: R^2 = 1 - \frac{\sum (f - a x)^2}{\sum (f - \bar f)^2}, \quad x = (l/l_r)^3
+
+    Bins count alike here, as in the paper's figure; empty ones are left out.
+
+    Parameters
+    ----------
+    relative_length, f : array_like, shape (n,)
+        l/l_r [-] and the energy-split function [-].
+
+    Returns
+    -------
+    slope, r_squared : float
+
+    Examples
+    --------
+    >>> cubic_r_squared([1.0, 2.0], [1.0, 8.0])
+    (1.0, 1.0)
+    """
+    x, f = np.asarray(relative_length, dtype=float) ** 3, np.asarray(f, dtype=float)
+    known = np.isfinite(x) & np.isfinite(f)
+    x, f = x[known], f[known]
+    slope = x @ f / (x @ x)
+    residual = np.sum((f - slope * x) ** 2)
+    return float(slope), float(1.0 - residual / np.sum((f - f.mean()) ** 2))

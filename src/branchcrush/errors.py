@@ -1,0 +1,25 @@
+"""The errors a user can meet. Each message says what is wrong and what to do about it."""
+
+
+class BranchcrushError(Exception):
+    """Base class of all errors of this package."""
+
+
+class ConfigError(BranchcrushError):
+    """The configuration is not usable. The message has one line for each problem."""
+
+
+class PackingError(BranchcrushError):
+    """The grains cannot be placed without overlap."""
+
+
+class SimulationError(BranchcrushError):
+    """LAMMPS cannot be loaded, stopped, or ended in a state that fails its checks."""
+
+
+class FitError(BranchcrushError):
+    """The data carry too little to fit."""
+
+
+class AdmissibilityError(BranchcrushError):
+    """The crushing model would dissipate negative energy for these distributions."""

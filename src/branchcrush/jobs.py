@@ -1,0 +1,39 @@
+"""How a job of the workflow ends: quietly, or with one message on the screen and in its log."""
+
+import contextlib
+import sys
+import traceback
+from pathlib import Path
+
+from branchcrush.errors import BranchcrushError
+
+
+@contextlib.contextmanager
+def job(log):
+    """Turn an error of the package into one message and a failed job; log anything else whole.
+
+    Parameters
+    ----------
+    log : path-like
+        The log of the rule. LAMMPS may have written to it: messages are appended.
+
+    Raises
+    ------
+    SystemExit
+        For a `BranchcrushError`.
+    """
+    log = Path(log)
+    log.parent.mkdir(parents=True, exist_ok=True)
+    log.touch()
+    try:
+        yield
+    except BranchcrushError as error:
+        message = f"branchcrush: {error}\n"
+        with log.open("a", encoding="utf-8") as file:
+            file.write(message)
+        sys.stderr.write(message)
+        sys.exit(1)
+    except Exception:
+        with log.open("a", encoding="utf-8") as file:
+            traceback.print_exc(file=file)
+        raise

@@ -1,0 +1,136 @@
+"""Figures 5 and 6 of the paper, and the exponent along the loading path."""
+
+import numpy as np
+
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes, interval_text
+
+# Bins with fewer branches are marked with their count.
+THIN = 100
+
+
+def plot_energy_split(table, fit, ax=None):
+    """Draw the energy-split function and its fitted power law (Fig. 5).
+
+    Parameters
+    ----------
+    table : DataFrame
+        `energy_split.csv`.
+    fit : dict
+        `energy_split.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    table = table[table["branches"] > 0]
+    x = table["branch_length_m"] / fit["reference_length_m"]
+    line = np.linspace(0.0, x.max() * 1.03, 200)
+    interval = interval_text(fit["exponent"], fit["exponent_low"], fit["exponent_high"])
+    if fit["exponent_low"] is not None:
+        ax.fill_between(
+            line,
+            line ** fit["exponent_low"],
+            line ** fit["exponent_high"],
+            color=MODEL,
+            alpha=0.2,
+            lw=0,
+        )
+    ax.plot(line, line ** fit["exponent"], color=MODEL, label=f"$(l/l_r)^n$, n = {interval}")
+    ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
+    _mark_thin(ax, x, table["f"], table["branches"])
+    ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
+    ax.set(xlim=(0, None), ylim=(0, None))
+    ax.legend(loc="upper left", title=_title(fit), title_fontsize=6.5)
+    return ax
+
+
+def plot_cubic(table, fit, ax=None):
+    """Draw the energy-split function against the cube of the length, with its R^2 (Fig. 6).
+
+    Parameters
+    ----------
+    table, fit, ax
+        As for `plot_energy_split`.
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    table = table[table["branches"] > 0]
+    x = (table["branch_length_m"] / fit["reference_length_m"]) ** 3
+    line = np.array([0.0, x.max() * 1.03])
+    ax.plot(
+        line,
+        fit["cubic_slope"] * line,
+        color=MODEL,
+        label=f"f = {fit['cubic_slope']:.3f} $(l/l_r)^3$, $R^2$ = {fit['cubic_r_squared']:.4f}",
+    )
+    ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
+    _mark_thin(ax, x, table["f"], table["branches"])
+    ax.set(xlabel=r"$(l/l_r)^3$ [-]", ylabel=r"energy split $f(l)$ [-]")
+    ax.set(xlim=(0, None), ylim=(0, None))
+    ax.legend(loc="upper left")
+    return ax
+
+
+def plot_exponent_path(path, fit, ax=None):
+    """Draw the exponent of the energy split along the loading path.
+
+    Parameters
+    ----------
+    path : DataFrame
+        `energy_split_path.csv`.
+    fit : dict
+        `energy_split.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    phi = path["solid_fraction"]
+    if path["exponent_low"].notna().all():
+        ax.fill_between(
+            phi,
+            path["exponent_low"],
+            path["exponent_high"],
+            color=MEASURED,
+            alpha=0.2,
+            lw=0,
+            label=f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds",
+        )
+    ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
+    ax.axhline(3.0, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
+    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="exponent n [-]")
+    top = ax.twiny()
+    top.set_xlim(ax.get_xlim())
+    shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
+    top.set_xticks(phi.iloc[shown], [f"{v:.1f}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
+    top.set_xlabel("mean stress [MPa]")
+    top.spines["top"].set_visible(True)
+    ax.legend(loc="best")
+    return ax
+
+
+def _mark_thin(ax, x, y, counts):
+    for position, height, count in zip(x, y, counts, strict=True):
+        if count < THIN:
+            ax.annotate(
+                f"{count}",
+                (position, height),
+                xytext=(0, 5),
+                textcoords="offset points",
+                ha="center",
+                fontsize=5.5,
+                color=FAINT,
+            )
+    if (counts < THIN).any():
+        ax.plot([], [], " ", label=f"small numbers: branches in bins below {THIN}")
+
+
+def _title(fit):
+    return rf"$\phi$ = {fit['solid_fraction']:.3f}, {fit['confidence']:.0%} interval"

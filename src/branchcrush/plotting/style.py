@@ -1,0 +1,71 @@
+"""How every figure looks, and how it is saved."""
+
+from contextlib import contextmanager
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt
+
+MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"
+# One column of a journal page [inch].
+SIZE = (3.5, 2.7)
+
+_STYLE = {
+    "font.size": 8,
+    "axes.labelsize": 8,
+    "axes.titlesize": 8,
+    "legend.fontsize": 6.5,
+    "legend.frameon": False,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "mathtext.fontset": "dejavusans",
+}
+
+
+def axes(ax=None):
+    """Return the given Axes, or those of a new figure of one journal column."""
+    return ax if ax is not None else plt.subplots(figsize=SIZE, layout="constrained")[1]
+
+
+@contextmanager
+def figure(path, dpi, size=SIZE, panels=(1, 1)):
+    """Draw a figure and save it: yields its Axes, one or an array of them.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    size : tuple of float
+        [inch]
+    panels : tuple of int
+        Rows and columns.
+    """
+    with plt.rc_context(_STYLE):
+        drawn, ax = plt.subplots(*panels, figsize=size, layout="constrained")
+        yield ax
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        # No date and no version of the plotting library: the same data give the same bytes.
+        drawn.savefig(path, dpi=dpi, metadata={"Software": None})
+        plt.close(drawn)
+
+
+def interval_text(estimate, low, high):
+    """Return an estimate with its interval as text, as 3.06 (2.97 to 3.15).
+
+    Examples
+    --------
+    >>> interval_text(3.0, 2.9, 3.1)
+    '3.00 (2.90 to 3.10)'
+    >>> interval_text(3.0, None, None)
+    '3.00 (one seed: no interval)'
+    """
+    if low is None or low != low:
+        return f"{estimate:.2f} (one seed: no interval)"
+    return f"{estimate:.2f} ({low:.2f} to {high:.2f})"

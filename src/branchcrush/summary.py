@@ -1,0 +1,34 @@
+"""Print what a run came to: `python -m branchcrush.summary results`."""
+
+import sys
+from pathlib import Path
+
+from branchcrush.plotting.style import interval_text
+from branchcrush.tables import read_table
+
+
+def summary(results):
+    """Return the exponent of every sample with its interval, and where to look, as text.
+
+    Parameters
+    ----------
+    results : path-like
+        The folder of results.
+
+    Returns
+    -------
+    str
+    """
+    results = Path(results)
+    lines = []
+    for row in read_table(results / "comparison.csv").itertuples():
+        exponent = interval_text(row.exponent, row.exponent_low, row.exponent_high)
+        lines.append(
+            f"{row.sample}: n = {exponent}, {row.confidence:.0%} interval of {row.seeds} seeds, "
+            f"at solid fraction {row.solid_fraction:.3f}"
+        )
+    return "\n".join([*lines, f"report:  {results / 'report.html'}", f"figures: {results / 'figures'}"])
+
+
+if __name__ == "__main__":
+    print(summary(sys.argv[1] if len(sys.argv) > 1 else "results"))

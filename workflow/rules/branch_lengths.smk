@@ -1,0 +1,23 @@
+# Branch lengths: contacts at the end of the path and gradings -> B(l), N, rho and the moments.
+
+
+rule branch_lengths:
+    input:
+        packings=of_all_seeds("packing.npz"),
+        paths=of_all_seeds("path.csv"),
+        contacts=of_all_seeds("contacts.parquet"),
+        code=code("branch_lengths", "energy_split", "ensemble", "tables"),
+    output:
+        table="results/{sample}/branch_lengths.csv",
+        statistics="results/{sample}/branch_lengths.json",
+    params:
+        sample=section("grading"),
+        bins=SETTINGS.energy_split.bins,
+    log:
+        "logs/{sample}/branch_lengths.log",
+    benchmark:
+        "logs/{sample}/branch_lengths.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/branch_lengths.py"

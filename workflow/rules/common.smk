@@ -1,0 +1,35 @@
+"""What the rules share: the settings of a sample, its files, and the code a job depends on."""
+
+from branchcrush.config import refined
+from branchcrush.source_files import module_files
+
+# A sample run again with twice the steps, to judge its convergence; no result of `all`.
+REFINED = "-refined"
+SAMPLES = dict(SETTINGS.samples)
+REFINED_SAMPLES = {name + REFINED: refined(sample) for name, sample in SAMPLES.items()}
+
+
+wildcard_constraints:
+    sample="|".join(map(re.escape, [*SAMPLES, *REFINED_SAMPLES])),
+    seed=r"\d+",
+
+
+def sample_of(wildcards):
+    return {**SAMPLES, **REFINED_SAMPLES}[wildcards.sample]
+
+
+def section(*keys):
+    """Return a params function for some keys of the sample, as plain values."""
+    return lambda wildcards: sample_of(wildcards).model_dump(include=set(keys))
+
+
+def of_all_seeds(file):
+    """Return an input function for a file of every seed of the sample."""
+    return lambda wildcards: [
+        f"results/{wildcards.sample}/seed_{seed}/{file}" for seed in sample_of(wildcards).seeds
+    ]
+
+
+def code(*modules):
+    """Return the files of modules and of all they import: an edit reruns what depends on it."""
+    return module_files(*modules)

@@ -1,0 +1,23 @@
+# Energy split: energies of the branches of all seeds -> f(l), its exponent, and it along the path.
+
+
+rule energy_split:
+    input:
+        paths=of_all_seeds("path.csv"),
+        contacts=of_all_seeds("contacts.parquet"),
+        code=code("energy_split", "ensemble", "tables"),
+    output:
+        table="results/{sample}/energy_split.csv",
+        fit="results/{sample}/energy_split.json",
+        path="results/{sample}/energy_split_path.csv",
+    params:
+        sample=section("grading", "seeds"),
+        energy_split=SETTINGS.energy_split.model_dump(),
+    log:
+        "logs/{sample}/energy_split.log",
+    benchmark:
+        "logs/{sample}/energy_split.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/energy_split.py"

@@ -1,0 +1,37 @@
+# Packing: grading, grains, boundary and seed -> a loose packing; all packings -> the gradings.
+
+
+rule packing:
+    input:
+        code=code("packing", "gradings", "tables"),
+    output:
+        packing="results/{sample}/seed_{seed}/packing.npz",
+        data="results/{sample}/seed_{seed}/packing.data",
+    params:
+        sample=section("grading", "grains", "boundary", "initial_solid_fraction"),
+    log:
+        "logs/{sample}/seed_{seed}/packing.log",
+    benchmark:
+        "logs/{sample}/seed_{seed}/packing.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/packing.py"
+
+
+rule grading:
+    input:
+        packings=of_all_seeds("packing.npz"),
+        code=code("gradings", "tables"),
+    output:
+        "results/{sample}/grading.csv",
+    params:
+        sample=section("grading"),
+    log:
+        "logs/{sample}/grading.log",
+    benchmark:
+        "logs/{sample}/grading.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/grading.py"

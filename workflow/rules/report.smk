@@ -1,0 +1,98 @@
+# Report: results of every sample -> figures, one table of all samples, and the page to open.
+
+FIGURES = [
+    "fig3_grading",
+    "fig4_packing",
+    "fig5_energy_split",
+    "fig6_cubic",
+    "fig7_branch_lengths",
+    "exponent_path",
+    "loading_path",
+    "crushing_model",
+]
+
+
+rule figures:
+    input:
+        grading="results/{sample}/grading.csv",
+        split="results/{sample}/energy_split.csv",
+        fit="results/{sample}/energy_split.json",
+        split_path="results/{sample}/energy_split_path.csv",
+        lengths="results/{sample}/branch_lengths.csv",
+        statistics="results/{sample}/branch_lengths.json",
+        curves="results/{sample}/thermodynamics.csv",
+        summary="results/{sample}/thermodynamics.json",
+        paths=of_all_seeds("path.csv"),
+        packings=of_all_seeds("packing.npz"),
+        particles=of_all_seeds("particles.dump.gz"),
+        code=code(
+            "plotting.distributions",
+            "plotting.energy",
+            "plotting.curves",
+            "plotting.spheres",
+            "ensemble",
+            "lammps_files",
+            "tables",
+        ),
+    output:
+        **{name: f"results/figures/{{sample}}/{name}.png" for name in FIGURES},
+    params:
+        sample=section("grading"),
+        dpi=SETTINGS.figures.dpi,
+    log:
+        "logs/{sample}/figures.log",
+    benchmark:
+        "logs/{sample}/figures.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/figures.py"
+
+
+rule comparison:
+    input:
+        fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
+        summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
+        code=code("report", "tables"),
+    output:
+        "results/comparison.csv",
+    params:
+        samples=list(SAMPLES),
+    log:
+        "logs/comparison.log",
+    benchmark:
+        "logs/comparison.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/comparison.py"
+
+
+rule report:
+    input:
+        template="workflow/report/report.html.jinja",
+        comparison="results/comparison.csv",
+        fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
+        summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
+        statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
+        paths=[
+            f"results/{name}/seed_{seed}/path.csv"
+            for name, sample in SAMPLES.items()
+            for seed in sample.seeds
+        ],
+        figures=expand(
+            "results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES
+        ),
+        code=code("report", "tables"),
+    output:
+        "results/report.html",
+    params:
+        samples={name: sample.model_dump() for name, sample in SAMPLES.items()},
+    log:
+        "logs/report.log",
+    benchmark:
+        "logs/report.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/report.py"

@@ -1,0 +1,22 @@
+# Thermodynamics: exponent, gradings and measured energy -> the curves of the crushing model.
+
+
+rule thermodynamics:
+    input:
+        paths=of_all_seeds("path.csv"),
+        fit="results/{sample}/energy_split.json",
+        code=code("crushing_curves", "tables"),
+    output:
+        curves="results/{sample}/thermodynamics.csv",
+        summary="results/{sample}/thermodynamics.json",
+    params:
+        sample=section("grading"),
+        thermodynamics=SETTINGS.thermodynamics.model_dump(),
+    log:
+        "logs/{sample}/thermodynamics.log",
+    benchmark:
+        "logs/{sample}/thermodynamics.time"
+    conda:
+        "../envs/branchcrush.yaml"
+    script:
+        "../scripts/thermodynamics.py"

@@ -1,0 +1,28 @@
+"""Write the page that a person opens."""
+
+from pathlib import Path
+
+from branchcrush.jobs import job
+from branchcrush.report import render_report
+from branchcrush.tables import read_json, read_table
+
+with job(snakemake.log[0]):
+    samples, files = snakemake.params.samples, snakemake.input
+
+    def of(name, paths):
+        return [path for path in paths if name in Path(path).parts]
+
+    pages = [
+        {
+            "name": name,
+            "settings": settings,
+            "fit": read_json(of(name, files.fits)[0]),
+            "model": read_json(of(name, files.summaries)[0]),
+            "statistics": read_json(of(name, files.statistics)[0]),
+            "paths": [read_table(path) for path in of(name, files.paths)],
+            "figures": {Path(path).stem: path for path in of(name, files.figures)},
+        }
+        for name, settings in samples.items()
+    ]
+    html = render_report(Path(files.template).read_text(encoding="utf-8"), pages)
+    Path(snakemake.output[0]).write_text(html, encoding="utf-8")
