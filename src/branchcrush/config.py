@@ -4,9 +4,20 @@ import math
 from difflib import get_close_matches
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from branchcrush.errors import ConfigError
+
+# Ends the name of a sample run with twice the steps, to judge its convergence.
+REFINED = "-refined"
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Fraction = Annotated[float, Field(gt=0, lt=1)]
@@ -55,7 +66,7 @@ class Loading(_Section):
     approach_solid_fraction: Fraction = 0.55
     steps: Annotated[int, Field(ge=1)] = 100
     states: Annotated[int, Field(ge=1)] = 20
-    unbalanced_force_ratio: Annotated[float, Field(gt=0, le=1e-6)] = 1e-6
+    unbalanced_force_ratio: Annotated[float, Field(gt=0, le=1e-6)] = 1e-7
 
     @model_validator(mode="after")
     def _whole_steps(self):
@@ -129,12 +140,21 @@ class Figures(_Section):
     dpi: Annotated[int, Field(ge=50, le=1200)] = 300
 
 
+def _usable_name(name):
+    if name.endswith(REFINED):
+        raise ValueError(f"a name must not end in {REFINED}, kept for the convergence study")
+    return name
+
+
+SampleName = Annotated[
+    str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$"), AfterValidator(_usable_name)
+]
+
+
 class Config(_Section):
     """The whole configuration."""
 
-    samples: dict[Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")], Sample] = Field(
-        min_length=1
-    )
+    samples: dict[SampleName, Sample] = Field(min_length=1)
     energy_split: EnergySplit = EnergySplit()
     thermodynamics: Thermodynamics = Thermodynamics()
     figures: Figures = Figures()

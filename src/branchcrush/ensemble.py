@@ -203,7 +203,9 @@ def exponents_along_path(contacts, paths, edges, *, confidence, resamples):
                 "state": state,
                 "solid_fraction": mean["solid_fraction"][state],
                 "mean_stress_Pa": mean["mean_stress_Pa"][state],
-                "median_overlap_ratio": (branches["overlap_m"] / branches["branch_length_m"]).median(),
+                "median_overlap_ratio": (
+                    branches["overlap_m"] / branches["branch_length_m"]
+                ).median(),
                 "branches": len(branches),
                 "exponent": exponent.estimate,
                 "exponent_low": exponent.low,

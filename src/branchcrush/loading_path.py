@@ -145,14 +145,16 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, normal_stiffnes
         contacts["branch_length_m"], force, volume, wall_distance, walls["normal_force_N"]
     )
     on_walls = walls["normal_force_N"].sum() / (6.0 * edge**2)
-    energy = contacts["energy_J"].sum() + linear_energy(
-        walls["normal_force_N"], normal_stiffness
-    ).sum()
+    energy = (
+        contacts["energy_J"].sum() + linear_energy(walls["normal_force_N"], normal_stiffness).sum()
+    )
     mean_force = float(force.mean()) if force.size else 0.0
     # sqrt(rho_s/P) times the residual speed; without stress the number has no meaning.
     twice_kinetic = 2.0 * float(scalars["kinetic_energy"])
     inertial = np.sqrt(twice_kinetic / (solid_volume * stress)) if mean_force > floor else np.nan
-    overlap_ratio = contacts["overlap_m"] / np.minimum(contacts["radius_i_m"], contacts["radius_j_m"])
+    overlap_ratio = contacts["overlap_m"] / np.minimum(
+        contacts["radius_i_m"], contacts["radius_j_m"]
+    )
     return {
         "state": int(scalars["state"]),
         "linear_strain": 1.0 - edge / first_edge,

@@ -27,7 +27,9 @@ def summary(results):
             f"{row.sample}: n = {exponent}, {row.confidence:.0%} interval of {row.seeds} seeds, "
             f"at solid fraction {row.solid_fraction:.3f}"
         )
-    return "\n".join([*lines, f"report:  {results / 'report.html'}", f"figures: {results / 'figures'}"])
+    return "\n".join(
+        [*lines, f"report:  {results / 'report.html'}", f"figures: {results / 'figures'}"]
+    )
 
 
 if __name__ == "__main__":

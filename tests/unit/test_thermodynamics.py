@@ -20,6 +20,7 @@ from branchcrush.thermodynamics import (
 THETA, CRITICAL_ENERGY, HARDENING = 0.6, 1e-3, 2.0
 EINAV = CrushingLaw(THETA, CRITICAL_ENERGY, HARDENING)
 
+quick = settings(max_examples=50, deadline=None)  # a busy machine must not fail a test
 shares = st.floats(0.05, 0.99)
 exponents = st.floats(0.5, 3.0)
 hardenings = st.floats(0.8, 4.0)
@@ -33,9 +34,9 @@ def path_of(strain, elasticity, law):
     return crushing_path(strain, elasticity, law.theta, law.critical_energy, law.hardening_exponent)
 
 
-def assert_balanced(path, rtol=1e-9):
-    largest = np.abs(path.work).max()
-    assert_allclose(path.work, path.stored + path.dissipated, rtol=rtol, atol=rtol * largest)
+def assert_balanced(path, rtol=1e-8):
+    rounding = rtol * np.abs(path.work).max() + 1e-300
+    assert_allclose(path.work, path.stored + path.dissipated, rtol=rtol, atol=rounding)
 
 
 class StiffeningElasticity:
@@ -79,6 +80,7 @@ def test_closed_energies_of_the_linear_law():
     assert_allclose(path.resistance, [3e-3], rtol=1e-12)
 
 
+@quick
 @given(exponent=exponents, stretch=st.floats(1.0, 20.0))
 def test_stress_of_a_power_law_beyond_yield(exponent, stretch):
     elasticity = PowerLawElasticity(1.0, exponent)
@@ -93,6 +95,7 @@ def test_stress_of_a_power_law_beyond_yield(exponent, stretch):
 # --- energy balance and irreversibility -----------------------------------------------------------
 
 
+@quick
 @given(elasticity=elasticities, law=laws, strain=strain_paths)
 def test_work_is_stored_plus_dissipated_on_any_path(elasticity, law, strain):
     assert_balanced(path_of(strain, elasticity, law))
@@ -114,9 +117,10 @@ def test_work_is_stored_plus_dissipated(strain, exponent, hardening):
     law = CrushingLaw(THETA, CRITICAL_ENERGY, hardening)
     path = path_of(strain, PowerLawElasticity(1.0, exponent), law)
     assert path.dissipated[-1] > 0
-    assert_balanced(path)
+    assert_balanced(path, rtol=1e-10)
 
 
+@quick
 @given(law=laws, strain=strain_paths)
 def test_any_elastic_energy_will_do(law, strain):
     assert_balanced(path_of(strain, StiffeningElasticity(), law))
@@ -129,6 +133,7 @@ def test_work_agrees_with_fine_trapezia():
     assert_allclose(path.work[-1], trapezia, rtol=1e-6)
 
 
+@quick
 @given(elasticity=elasticities, law=laws, strain=strain_paths)
 def test_crushing_never_decreases_and_waits_for_the_largest_energy(elasticity, law, strain):
     path = path_of(strain, elasticity, law)
@@ -140,6 +145,7 @@ def test_crushing_never_decreases_and_waits_for_the_largest_energy(elasticity, l
     assert_array_equal(path.crushing[waiting + 1], path.crushing[waiting])
 
 
+@quick
 @given(elasticity=elasticities, law=laws, strain=strain_paths)
 def test_the_driving_force_never_exceeds_the_resistance(elasticity, law, strain):
     path = path_of(strain, elasticity, law)
@@ -170,6 +176,7 @@ def test_without_release_there_is_no_crushing():
 # --- derivatives of the free energy ---------------------------------------------------------------
 
 
+@quick
 @given(law=laws, exponent=exponents, crushing=st.floats(0.0, 0.9), strain=st.floats(0.05, 0.5))
 def test_stress_and_driving_force_are_derivatives_of_the_free_energy(
     law, exponent, crushing, strain
@@ -185,6 +192,7 @@ def test_stress_and_driving_force_are_derivatives_of_the_free_energy(
     assert_allclose(law.driving_force(elasticity.energy(strain)), -slope, rtol=1e-8)
 
 
+@quick
 @given(law=laws, crushing=st.floats(0.01, 0.95))
 def test_resistance_is_the_slope_of_the_dissipation(law, crushing):
     step = 1e-5
@@ -192,6 +200,7 @@ def test_resistance_is_the_slope_of_the_dissipation(law, crushing):
     assert_allclose(law.resistance(crushing), np.diff(ends)[0] / (2 * step), rtol=1e-5)
 
 
+@quick
 @given(share=shares, exponent=exponents, surplus=st.sampled_from([-0.05, -0.01, 0.01, 0.05]))
 def test_stress_rises_at_onset_if_the_resistance_hardens_enough(share, exponent, surplus):
     bound = share * (1 + 1 / exponent)
@@ -207,6 +216,7 @@ def test_stress_rises_at_onset_if_the_resistance_hardens_enough(share, exponent,
 # --- branch lengths and theta ---------------------------------------------------------------------
 
 
+@quick
 @given(
     crushing=st.floats(0, 1),
     initial=st.floats(0.1, 10),
@@ -277,10 +287,12 @@ def test_a_strain_path_is_one_row_of_finite_numbers(strain):
 # --- elasticity and its fit -----------------------------------------------------------------------
 
 
+@quick
 @given(elasticity=elasticities, beyond=st.floats(1e-3, 1.0))
 def test_elasticity_inverts_and_differentiates(elasticity, beyond):
     strain = elasticity.onset_strain + beyond
-    assert_allclose(elasticity.strain_at_energy(elasticity.energy(strain)), strain, rtol=1e-12)
+    found = elasticity.strain_at_energy(elasticity.energy(strain))
+    assert_allclose(found - elasticity.onset_strain, beyond, rtol=1e-12, atol=1e-15)
     ends = elasticity.energy(strain + 1e-4 * beyond * np.array([-1, 1]))
     assert_allclose(elasticity.pressure(strain), np.diff(ends)[0] / (2e-4 * beyond), rtol=1e-6)
 
@@ -297,7 +309,7 @@ def energies_along(phi, jamming, elasticity):
     return phi / jamming * elasticity.energy(1 - jamming / phi)  # per current volume
 
 
-@settings(max_examples=40)
+@settings(quick, max_examples=20)
 @given(
     jamming=st.floats(0.2, 0.8),
     elasticity=st.builds(PowerLawElasticity, st.floats(1e-3, 1e9), st.floats(0.5, 3.5)),
@@ -358,9 +370,10 @@ def test_the_fit_needs_four_loaded_states():
         np.ones(9),
         np.linspace(2, 1, 9),
         np.exp(50 * np.linspace(0.66, 0.8, 9)),
-        np.append(0.01 * np.arange(8), 5.0),
+        np.append(1e-6 * np.arange(8), 1.0),
+        energies_along(np.linspace(0.66, 0.8, 9), 0.03, PowerLawElasticity(1.0, 8.0)),
     ],
-    ids=["constant", "falling", "exponential", "one state carries all"],
+    ids=["constant", "falling", "exponential", "one state carries all", "far from jamming"],
 )
 def test_the_fit_refuses_what_is_no_power_law(energy):
     with pytest.raises(ValueError, match="no power law"):
@@ -373,6 +386,7 @@ def test_the_fit_refuses_what_is_no_power_law(energy):
         ([0.6, 0.7], [1.0]),
         ([[0.6, 0.7]], [[1.0, 2.0]]),
         ([0.6, np.nan], [0.0, 1.0]),
+        ([0.6, 0.7], [0.0, np.inf]),
         ([0.6, 0.7], [-1.0, 1.0]),
         ([0.0, 0.7], [0.0, 1.0]),
     ],

@@ -10,14 +10,14 @@ rule branch_lengths:
     output:
         table="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
-    params:
-        sample=section("grading"),
-        bins=SETTINGS.energy_split.bins,
     log:
         "logs/{sample}/branch_lengths.log",
     benchmark:
         "logs/{sample}/branch_lengths.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
+        bins=SETTINGS.energy_split.bins,
     script:
         "../scripts/branch_lengths.py"

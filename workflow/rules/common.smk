@@ -1,11 +1,10 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
-from branchcrush.config import refined
+from branchcrush.config import REFINED, refined
 from branchcrush.source_files import module_files
 
-# A sample run again with twice the steps, to judge its convergence; no result of `all`.
-REFINED = "-refined"
 SAMPLES = dict(SETTINGS.samples)
+# No result of `all`: only `convergence` asks for them.
 REFINED_SAMPLES = {name + REFINED: refined(sample) for name, sample in SAMPLES.items()}
 
 

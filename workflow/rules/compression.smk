@@ -24,13 +24,13 @@ rule compression:
         walls="results/{sample}/seed_{seed}/wall_contacts.parquet",
         particles="results/{sample}/seed_{seed}/particles.dump.gz",
         pairs="results/{sample}/seed_{seed}/pairs.dump.gz",
-    params:
-        sample=section("boundary", "contact", "loading"),
     log:
         "logs/{sample}/seed_{seed}/compression.log",
     benchmark:
         "logs/{sample}/seed_{seed}/compression.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("boundary", "contact", "loading"),
     script:
         "../scripts/compression.py"

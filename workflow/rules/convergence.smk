@@ -13,14 +13,14 @@ rule convergence:
         code=code("report", "tables"),
     output:
         "results/convergence.csv",
-    params:
-        steps=[sample.loading.steps for sample in SAMPLES.values()],
-        samples=list(SAMPLES),
     log:
         "logs/convergence.log",
     benchmark:
         "logs/convergence.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        steps=[sample.loading.steps for sample in SAMPLES.values()],
+        samples=list(SAMPLES),
     script:
         "../scripts/convergence.py"

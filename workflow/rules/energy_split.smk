@@ -10,14 +10,14 @@ rule energy_split:
         table="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",
         path="results/{sample}/energy_split_path.csv",
-    params:
-        sample=section("grading", "seeds"),
-        energy_split=SETTINGS.energy_split.model_dump(),
     log:
         "logs/{sample}/energy_split.log",
     benchmark:
         "logs/{sample}/energy_split.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading", "seeds"),
+        energy_split=SETTINGS.energy_split.model_dump(),
     script:
         "../scripts/energy_split.py"

@@ -7,14 +7,14 @@ rule packing:
     output:
         packing="results/{sample}/seed_{seed}/packing.npz",
         data="results/{sample}/seed_{seed}/packing.data",
-    params:
-        sample=section("grading", "grains", "boundary", "initial_solid_fraction"),
     log:
         "logs/{sample}/seed_{seed}/packing.log",
     benchmark:
         "logs/{sample}/seed_{seed}/packing.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading", "grains", "boundary", "initial_solid_fraction"),
     script:
         "../scripts/packing.py"
 
@@ -25,13 +25,13 @@ rule grading:
         code=code("gradings", "tables"),
     output:
         "results/{sample}/grading.csv",
-    params:
-        sample=section("grading"),
     log:
         "logs/{sample}/grading.log",
     benchmark:
         "logs/{sample}/grading.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
     script:
         "../scripts/grading.py"

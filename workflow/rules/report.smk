@@ -36,15 +36,15 @@ rule figures:
         ),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in FIGURES},
-    params:
-        sample=section("grading"),
-        dpi=SETTINGS.figures.dpi,
     log:
         "logs/{sample}/figures.log",
     benchmark:
         "logs/{sample}/figures.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
+        dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/figures.py"
 
@@ -56,14 +56,14 @@ rule comparison:
         code=code("report", "tables"),
     output:
         "results/comparison.csv",
-    params:
-        samples=list(SAMPLES),
     log:
         "logs/comparison.log",
     benchmark:
         "logs/comparison.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        samples=list(SAMPLES),
     script:
         "../scripts/comparison.py"
 
@@ -80,19 +80,17 @@ rule report:
             for name, sample in SAMPLES.items()
             for seed in sample.seeds
         ],
-        figures=expand(
-            "results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES
-        ),
+        figures=expand("results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES),
         code=code("report", "tables"),
     output:
         "results/report.html",
-    params:
-        samples={name: sample.model_dump() for name, sample in SAMPLES.items()},
     log:
         "logs/report.log",
     benchmark:
         "logs/report.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        samples={name: sample.model_dump() for name, sample in SAMPLES.items()},
     script:
         "../scripts/report.py"

@@ -9,14 +9,14 @@ rule thermodynamics:
     output:
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
-    params:
-        sample=section("grading"),
-        thermodynamics=SETTINGS.thermodynamics.model_dump(),
     log:
         "logs/{sample}/thermodynamics.log",
     benchmark:
         "logs/{sample}/thermodynamics.time"
     conda:
         "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
+        thermodynamics=SETTINGS.thermodynamics.model_dump(),
     script:
         "../scripts/thermodynamics.py"

@@ -1,11 +1,13 @@
 """Measure the distribution of branch lengths at the end of the loading path."""
 
+from snakemake.script import snakemake
+
 from branchcrush import gradings
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
 from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import final_branches
-from branchcrush.tables import provenance, read_packing, read_table, write_json, write_table
 from branchcrush.jobs import job
+from branchcrush.tables import provenance, read_packing, read_table, write_json, write_table
 
 with job(snakemake.log[0]):
     grading = gradings.from_parameters(**snakemake.params.sample["grading"])

@@ -2,9 +2,11 @@
 
 from pathlib import Path
 
+from snakemake.script import snakemake
+
+from branchcrush.jobs import job
 from branchcrush.simulation import compress, compression_variables
 from branchcrush.tables import provenance, read_packing, write_table
-from branchcrush.jobs import job
 
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)

@@ -1,5 +1,8 @@
 """Compare every sample with itself at twice the strain steps."""
 
+from snakemake.script import snakemake
+
+from branchcrush.config import REFINED
 from branchcrush.jobs import job
 from branchcrush.report import convergence_rows
 from branchcrush.tables import provenance, read_json, read_table, write_table
@@ -14,6 +17,6 @@ with job(snakemake.log[0]):
         samples, snakemake.params.steps, files.fits, files.refined, strict=True
     ):
         once = (read_json(fit), paths[name])
-        twice = (read_json(refined), paths[f"{name}-refined"])
+        twice = (read_json(refined), paths[name + REFINED])
         rows += convergence_rows(name, steps, once, twice)
     write_table(snakemake.output[0], rows, provenance(samples=samples))

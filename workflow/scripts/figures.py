@@ -1,5 +1,7 @@
 """Draw the figures of a sample."""
 
+from snakemake.script import snakemake
+
 from branchcrush import gradings
 from branchcrush.ensemble import stacked
 from branchcrush.jobs import job
@@ -29,7 +31,12 @@ with job(snakemake.log[0]):
         plot_packing(positions, radii, edge, extent=edge, radius_max=radius_max, ax=before)
         places = end[["x", "y", "z"]].to_numpy()
         plot_packing(
-            places, end["radius"].to_numpy(), final_edge, extent=edge, radius_max=radius_max, ax=after
+            places,
+            end["radius"].to_numpy(),
+            final_edge,
+            extent=edge,
+            radius_max=radius_max,
+            ax=after,
         )
         ends = path[path["seed_number"] == 0]["solid_fraction"]
         before.set_title(rf"placed at random, $\phi$ = {ends.iloc[0]:.3f}")
@@ -53,7 +60,9 @@ with job(snakemake.log[0]):
 
     with figure(output.crushing_model, dpi, (2 * SIZE[0], 3 * SIZE[1]), (3, 2)) as panels:
         curves.plot_reference_energy(model, panels[0, 0])
-        curves.plot_family(model, "free_energy_J_per_m3", r"free energy $\Psi$ [MJ/m³]", panels[0, 1])
+        curves.plot_family(
+            model, "free_energy_J_per_m3", r"free energy $\Psi$ [MJ/m³]", panels[0, 1]
+        )
         curves.plot_family(model, "stress_Pa", r"mean stress $\sigma$ [MPa]", panels[1, 0])
         curves.plot_crushing(model, summary, panels[1, 1])
         curves.plot_driving_force(model, panels[2, 0])

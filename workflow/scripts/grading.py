@@ -1,8 +1,10 @@
 """Write the target grading beside the one that the seeds realise."""
 
+from snakemake.script import snakemake
+
 from branchcrush import gradings
-from branchcrush.tables import provenance, read_packing, write_table
 from branchcrush.jobs import job
+from branchcrush.tables import provenance, read_packing, write_table
 
 with job(snakemake.log[0]):
     grading = gradings.from_parameters(**snakemake.params.sample["grading"])

@@ -1,12 +1,13 @@
 """Draw the radii of a seed and place the grains at random."""
 
 import numpy as np
+from snakemake.script import snakemake
 
 from branchcrush import gradings
+from branchcrush.jobs import job
 from branchcrush.lammps_files import write_data_file
 from branchcrush.packing import cube_edge, random_packing
 from branchcrush.tables import provenance, write_packing
-from branchcrush.jobs import job
 
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)

@@ -1,10 +1,12 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
+from snakemake.script import snakemake
+
 from branchcrush import gradings
 from branchcrush.crushing_curves import crushing_curves
 from branchcrush.energy_split import Interval
-from branchcrush.tables import provenance, read_json, read_table, write_json, write_table
 from branchcrush.jobs import job
+from branchcrush.tables import provenance, read_json, read_table, write_json, write_table
 
 with job(snakemake.log[0]):
     model = snakemake.params.thermodynamics

@@ -109,7 +109,12 @@ def plot_elastic_law(path, summary, ax=None):
     density = path["elastic_energy_J"] / path["volume_m3"] * jamming / path["solid_fraction"]
     shown = strain > -0.1
     ax.plot(
-        100 * strain[shown], density[shown] * 1e-6, ".", color=MEASURED, alpha=0.5, label="each seed"
+        100 * strain[shown],
+        density[shown] * 1e-6,
+        ".",
+        color=MEASURED,
+        alpha=0.5,
+        label="each seed",
     )
     line = 100 * strain[shown].sort_values().clip(lower=0)
     power = summary["elastic_exponent"] + 1
@@ -290,9 +295,18 @@ def _each_seed(ax, path, values):
     for number, (_, seed) in enumerate(path.groupby("seed_number")):
         label = "each seed" if number == 0 else None
         ax.plot(
-            seed["solid_fraction"], values[seed.index], color=MEASURED, alpha=0.3, lw=0.7, label=label
+            seed["solid_fraction"],
+            values[seed.index],
+            color=MEASURED,
+            alpha=0.3,
+            lw=0.7,
+            label=label,
         )
     mean = values.groupby(path["state"]).mean()
     ax.plot(
-        path.groupby("state")["solid_fraction"].mean(), mean, "o-", color=MODEL, label="mean of seeds"
+        path.groupby("state")["solid_fraction"].mean(),
+        mean,
+        "o-",
+        color=MODEL,
+        label="mean of seeds",
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
 
 
 def plot_grading(grading, ax=None):
@@ -29,7 +29,11 @@ def plot_grading(grading, ax=None):
         label="by mass, mean of seeds",
     )
     ax.plot(
-        diameter, grading["percent_finer_by_mass_target"], "--", color=MODEL, label="by mass, target"
+        diameter,
+        grading["percent_finer_by_mass_target"],
+        "--",
+        color=MODEL,
+        label="by mass, target",
     )
     ax.plot(
         diameter,
@@ -66,11 +70,22 @@ def plot_branch_lengths(table, statistics, radius_max, ax=None):
     density = table["density_measured_per_m"] * radius_max
     error = table["density_measured_standard_error_per_m"] * radius_max
     ax.bar(
-        middle, density, width, color=MEASURED, alpha=0.35, label=f"measured, {_count(table)} branches"
+        middle,
+        density,
+        width,
+        color=MEASURED,
+        alpha=0.35,
+        label=f"measured, {_count(table)} branches",
     )
     if np.isfinite(error).any():
         ax.errorbar(
-            middle, density, error, fmt="none", ecolor=MEASURED, lw=0.8, label="standard error of seeds"
+            middle,
+            density,
+            error,
+            fmt="none",
+            ecolor=MEASURED,
+            lw=0.8,
+            label="standard error of seeds",
         )
     ax.plot(
         middle,
@@ -81,9 +96,10 @@ def plot_branch_lengths(table, statistics, radius_max, ax=None):
     )
     for key, color in (("mean_length_1_m1", MEASURED), ("eq4_length_1_m1", MODEL)):
         ax.axvline(statistics[key] / radius_max, color=color, lw=0.8, ls=":")
-    ax.plot([], [], ":", color=OTHER, alpha=0)
     ax.set(xlabel=r"branch length $l/R_M$ [-]", ylabel=r"density $B(l)\,R_M$ [-]", xlim=(0, 2))
-    ax.set_ylim(0, 1.35 * max(density.max(), (table["density_random_contact_per_m"]).max() * radius_max))
+    ax.set_ylim(
+        0, 1.4 * max(density.max(), table["density_random_contact_per_m"].max() * radius_max)
+    )
     ax.legend(loc="upper left", title="dotted: the means", title_fontsize=6.5)
     return ax
 

@@ -41,7 +41,8 @@ def plot_energy_split(table, fit, ax=None):
     ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
     _mark_thin(ax, x, table["f"], table["branches"])
     ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
-    ax.set(xlim=(0, None), ylim=(0, None))
+    # With few seeds the band would dwarf the data.
+    ax.set(xlim=(0, None), ylim=(0, 1.35 * table["f"].max()))
     ax.legend(loc="upper left", title=_title(fit), title_fontsize=6.5)
     return ax
 

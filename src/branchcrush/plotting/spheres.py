@@ -97,7 +97,7 @@ def plot_packing(positions, radii, edge, *, extent=None, pixels=900, radius_max=
 
     ax = axes(ax)
     view = _rotation()
-    scale = 0.95 * (extent or edge)
+    scale = 0.86 * (extent or edge)
     colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
     image = sphere_image(positions @ view.T, radii, scale, pixels, colours)
     corners = _CUBE * edge @ view.T
@@ -116,7 +116,9 @@ def plot_packing(positions, radii, edge, *, extent=None, pixels=900, radius_max=
     ax.imshow(image, origin="lower", extent=ends * 2, zorder=2, interpolation="antialiased")
     bar = 10.0 ** np.floor(np.log10(scale * 1e3))
     ax.plot([ends[0], ends[0] + bar], [ends[0] * 0.98] * 2, color="k", lw=1.5, clip_on=False)
-    ax.text(ends[0] + bar / 2, ends[0] * 0.95, f"{bar:g} mm", ha="center", va="bottom", fontsize=6.5)
+    ax.text(
+        ends[0] + bar / 2, ends[0] * 0.95, f"{bar:g} mm", ha="center", va="bottom", fontsize=6.5
+    )
     ax.set(xlim=ends, ylim=ends, aspect="equal")
     ax.set_axis_off()
     return ax

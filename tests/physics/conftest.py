@@ -1,0 +1,107 @@
+"""Packings, their compression, and a reader of dumps that owes nothing to the package."""
+
+import gzip
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from branchcrush import gradings
+from branchcrush.loading_path import force_floor
+from branchcrush.packing import cube_edge, random_packing
+from branchcrush.simulation import compress
+
+STIFFNESS = 1.0e6
+
+
+class Compression(NamedTuple):
+    """What `compress` returned, and what it was asked."""
+
+    path: pd.DataFrame
+    contacts: pd.DataFrame
+    walls: pd.DataFrame
+    variables: dict
+    folder: Path
+
+    def at(self, table, state):
+        """Return the rows of one state of `contacts` or `walls`; -1 is the last state."""
+        table = getattr(self, table)
+        state = self.path["state"].iloc[state]
+        return table[table["state"] == state].reset_index(drop=True)
+
+
+class Frame(NamedTuple):
+    """One frame of a dump: lower and upper faces of the cell, and the columns by name."""
+
+    bounds: np.ndarray
+    columns: dict
+
+    def vectors(self, *names):
+        return np.column_stack([self.columns[name] for name in names])
+
+
+@pytest.fixture(scope="session")
+def random_grains():
+    """Return a function that places grains of radius 0.2 to 1 mm: positions, radii, edge."""
+
+    def place(grains, seed, *, periodic):
+        rng = np.random.default_rng(seed)
+        radii = np.sort(gradings.uniform(0.2e-3, 1e-3).rvs(size=grains, random_state=rng))[::-1]
+        edge = cube_edge(radii, 0.16)
+        return random_packing(radii, edge, periodic=periodic, rng=rng), radii, edge
+
+    return place
+
+
+@pytest.fixture(scope="session")
+def compressed(lammps_inputs):
+    """Return a function that compresses a packing; any variable of in.compress may be given."""
+
+    def run(packing, folder, *, inputs=lammps_inputs, **variables):
+        positions, radii, edge = packing
+        variables = {
+            "boundary": "walls",
+            "normal_stiffness": STIFFNESS,
+            "state_tolerance": 1e-6,
+            "force_floor": force_floor(radii, variables.get("normal_stiffness", STIFFNESS)),
+            "skin": 0.1 * float(np.max(radii)),
+            **variables,
+        }
+        tables = compress(
+            np.asarray(positions, dtype=float),
+            np.asarray(radii, dtype=float),
+            edge,
+            variables,
+            inputs=inputs,
+            folder=folder,
+            log=folder.with_suffix(".log"),
+        )
+        return Compression(*tables, variables, folder)
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def frames():
+    """Return a function that reads the frames of a gzipped dump line by line."""
+
+    def read(path):
+        with gzip.open(path, "rt") as file:
+            lines = iter(file.read().splitlines())
+        found = []
+        for line in lines:
+            assert line == "ITEM: TIMESTEP"
+            next(lines)
+            assert next(lines).startswith("ITEM: NUMBER OF ")
+            rows = int(next(lines))
+            assert next(lines).startswith("ITEM: BOX BOUNDS ")
+            bounds = np.array([next(lines).split() for _ in range(3)], dtype=float)
+            names = next(lines).split()[2:]
+            values = [next(lines).split() for _ in range(rows)]
+            columns = np.array(values, dtype=float).reshape(rows, len(names)).T
+            found.append(Frame(bounds, dict(zip(names, columns, strict=True))))
+        return found
+
+    return read

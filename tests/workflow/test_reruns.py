@@ -1,0 +1,81 @@
+"""What a change reruns: its own stage and what follows, nothing before it."""
+
+import os
+import time
+
+import pytest
+
+FIGURES = {"figures", "report"}
+MODEL = {"thermodynamics", "comparison"} | FIGURES
+SPLIT = {"energy_split"} | MODEL
+LOADING = {"compression", "branch_lengths"} | SPLIT
+PACKING = {"packing", "grading"} | LOADING
+
+
+@pytest.fixture
+def study(finished):
+    yield finished
+    finished.configure(study.tiny)
+
+
+def test_a_second_run_does_nothing(study):
+    assert study.planned_rules() == set()
+    run = study.snakemake()
+    assert "Nothing to be done" in run.stdout + run.stderr
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "rules"),
+    [
+        ("dpi: 100", "dpi: 120", FIGURES),
+        ("figures:", "thermodynamics: {critical_energy: 3.0e5}\nfigures:", MODEL),
+        ("figures:", "energy_split: {confidence: 0.9}\nfigures:", SPLIT),
+        ("figures:", "energy_split: {bins: 15}\nfigures:", SPLIT | {"branch_lengths"}),
+        ("states: 12", "states: 8", LOADING),
+        ("    grains", "    contact: {normal_stiffness: 2.0e6}\n    grains", LOADING),
+        ("grains: 60", "grains: 50", PACKING),
+    ],
+)
+def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules):
+    assert old in study.tiny
+    study.configure(study.tiny.replace(old, new))
+    assert study.planned_rules() == rules
+
+
+@pytest.mark.parametrize(
+    ("module", "rules"),
+    [
+        ("plotting/energy.py", FIGURES),
+        ("thermodynamics.py", MODEL),
+        ("loading_path.py", LOADING),
+        ("packing.py", PACKING - {"grading"}),
+    ],
+)
+def test_an_edited_module_reruns_the_stages_that_use_it(study, module, rules):
+    file = study.folder / "src" / "branchcrush" / module
+    before, times = file.read_text(), file.stat()
+    time.sleep(0.01)
+    file.write_text(before + "\n# edited\n")
+    try:
+        assert study.planned_rules() == rules
+    finally:
+        file.write_text(before)
+        os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
+def test_an_edited_lammps_script_reruns_the_compression(study):
+    file = study.folder / "lammps_inputs" / "mod.relax"
+    before, times = file.read_text(), file.stat()
+    file.write_text(before + "\n# edited\n")
+    try:
+        assert study.planned_rules() == LOADING
+    finally:
+        file.write_text(before)
+        os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
+def test_a_new_seed_runs_only_that_seed(study):
+    study.configure(study.tiny.replace("seeds: [3, 5]", "seeds: [3, 5, 7]"))
+    shown = study.snakemake("--dry-run").stdout
+    assert "seed=7" in shown
+    assert "seed=3" not in shown
