@@ -64,8 +64,8 @@ class Loading(_Section):
 
     edge_reduction: Fraction = 0.40
     approach_solid_fraction: Fraction = 0.55
-    steps: Annotated[int, Field(ge=1)] = 100
-    states: Annotated[int, Field(ge=1)] = 20
+    steps: Annotated[int, Field(ge=1)] = 60
+    states: Annotated[int, Field(ge=1)] = 15
     unbalanced_force_ratio: Annotated[float, Field(gt=0, le=1e-6)] = 1e-7
 
     @model_validator(mode="after")

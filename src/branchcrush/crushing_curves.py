@@ -141,6 +141,7 @@ def crushing_curves(
         "elastic_exponent": elasticity.exponent,
         "elastic_r_squared": r_squared,
         "jamming_solid_fraction": jamming,
+        "jamming_on_path": bool(jamming > max(path["solid_fraction"][1] for path in paths)),
         "largest_strain": largest,
         "critical_energy_J_per_m3": critical_energy,
         "hardening_exponent": hardening_exponent,

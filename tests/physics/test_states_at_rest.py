@@ -238,9 +238,7 @@ def test_elastic_energy_is_that_of_the_overlaps_found_from_the_positions(searche
         # d(k x^2 / 2) = k x dx: in an unloaded state the overlaps are near their rounding.
         overlaps = sum(search.pairs.values()) + sum(search.walls.values())
         error = STIFFNESS * overlaps * OVERLAP_ERROR
-        np.testing.assert_allclose(
-            row["elastic_energy_J"], search.energy(), rtol=1e-13, atol=error
-        )
+        np.testing.assert_allclose(row["elastic_energy_J"], search.energy(), rtol=1e-13, atol=error)
 
 
 def test_work_is_stored_or_dissipated_and_dissipation_never_runs_backwards(packing):
@@ -253,6 +251,29 @@ def test_work_is_stored_or_dissipated_and_dissipation_never_runs_backwards(packi
     assert (path["dissipated_J"].diff().iloc[1:] >= -rounding).all()
     # Rearrangements do dissipate: the account is not trivially closed.
     assert path["dissipated_J"].iloc[-1] > 0.01 * path["work_J"].iloc[-1]
+
+
+@pytest.mark.parametrize("offset", [0.01, 0.05])
+def test_a_fine_grain_caught_between_a_large_one_and_a_wall_stays_inside(
+    compressed, tmp_path, offset
+):
+    # One strain step closes the gap to a fortieth of the fine grain's size.
+    x = 1e-3 * np.array([-offset, 1.1])
+    run = compressed(
+        (np.column_stack([x, np.zeros((2, 2))]), 1e-3 * np.array([1, 0.02]), 2.3e-3),
+        tmp_path / "run",
+        approach_edge=2.25e-3,
+        final_edge=2.001e-3,
+        steps=1,
+        steps_per_state=1,
+    )
+    # The large grain on the left wall, the fine one between it and the right wall: 3 contacts in
+    # a row share what the diameters are too long by.
+    overlap = 1e-3 * (2 * (1 + 0.02) - 2.001) / 3
+    walls = run.at("walls", -1)
+    assert list(zip(walls["i"], walls["wall"], strict=True)) == [(0, "-x"), (1, "+x")]
+    np.testing.assert_allclose(walls["overlap_m"], overlap, rtol=1e-6)
+    np.testing.assert_allclose(run.at("contacts", -1)["overlap_m"], overlap, rtol=1e-6)
 
 
 def test_nothing_moves_in_a_saved_state(packing):

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import branchcrush
-from branchcrush.source_files import imported_modules, module_files
+from branchcrush.source_files import imported_modules, source_files
 
 PACKAGE = Path(branchcrush.__file__).parent
 REPOSITORY = Path(__file__).parents[2]
@@ -37,8 +37,13 @@ MODULES = sorted(name_of(file) for file in PACKAGE.rglob("*.py") if file.name !=
 every_module = pytest.mark.parametrize("module", MODULES)
 
 
+def file_of(module):
+    return PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
+
+
 def closure(*modules):
-    return {name_of(file) for file in module_files(*modules)}
+    followed = {name_of(file) for module in modules for file in source_files(file_of(module))}
+    return followed | set(modules)
 
 
 def packages_imported_by(file):
@@ -130,7 +135,7 @@ def test_package_does_not_know_the_workflow():
 
 
 def test_no_two_modules_import_each_other():
-    graph = {module: imported_modules(module) for module in MODULES}
+    graph = {module: imported_modules(file_of(module)) for module in MODULES}
     assert set(TopologicalSorter(graph).static_order()) >= set(MODULES)
 
 
@@ -141,24 +146,23 @@ def test_files_of_a_module_are_those_of_all_it_imports_in_turn():
     expected = {"crushing_curves", "branch_lengths", "gradings", "ensemble", "energy_split"}
     expected |= {"thermodynamics", "errors"}
     assert closure("crushing_curves") == expected
-    assert closure("errors") == {"errors"}
-    assert closure("errors", "gradings") == {"errors", "gradings"}
+    assert source_files(file_of("errors")) == []
 
 
 def test_files_are_named_once_in_order_and_exist():
-    files = module_files("simulation", "crushing_curves", "simulation")
+    files = source_files(file_of("simulation"))
     assert files == sorted(set(files))
     assert all(Path(file).is_file() for file in files)
 
 
 def test_modules_in_a_folder_of_the_package_are_followed():
-    assert imported_modules("plotting.energy") == {"plotting.style"}
+    assert imported_modules(file_of("plotting.energy")) == {"plotting.style"}
     assert closure("plotting.energy") == {"plotting.energy", "plotting.style"}
 
 
 def test_direct_imports_leave_out_what_those_import():
-    assert imported_modules("branch_lengths") == {"gradings"}
-    assert imported_modules("loading_path") == {"contact_law", "contacts", "errors"}
+    assert imported_modules(file_of("branch_lengths")) == {"gradings"}
+    assert imported_modules(file_of("loading_path")) == {"contact_law", "contacts", "errors"}
 
 
 @every_module
@@ -167,13 +171,24 @@ def test_files_of_a_module_are_all_that_python_loads_for_it(module, loaded):
     assert closure(module) == set(modules)
 
 
+SCRIPTS = sorted(REPOSITORY.glob("workflow/scripts/*.py"))
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_a_script_watches_all_it_runs_but_the_way_a_job_reports(script):
+    assert "jobs" in imported_modules(script)
+    watched = {name_of(file) for file in source_files(script)}
+    assert watched == closure(*imported_modules(script) - {"jobs"})
+
+
 def test_every_module_is_used_by_the_workflow_or_a_command():
-    sources = [REPOSITORY / "Snakefile", REPOSITORY / "Makefile"]
-    sources += [*REPOSITORY.glob("workflow/**/*.smk"), *REPOSITORY.glob("workflow/**/*.py")]
-    text = "\n".join(source.read_text(encoding="utf-8") for source in sources)
-    used = set(re.findall(r"-m branchcrush\.([a-z_.]+)", text))
-    for base, names in re.findall(r"from branchcrush\.?([a-z_.]*) import ([\w, ]+|\()", text):
-        inside = {f"{base}.{name.strip()}".lstrip(".") for name in names.split(",")} & set(MODULES)
-        used |= inside or {base}
-    assert used <= set(MODULES)
+    sources = [REPOSITORY / "Snakefile", *REPOSITORY.glob("workflow/**/*.smk"), *SCRIPTS]
+    makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
+    used = set(re.findall(r"-m branchcrush\.([a-z_.]+)", makefile))
+    for source in sources:
+        text = source.read_text(encoding="utf-8")
+        if source.suffix == ".py":
+            used |= imported_modules(source)
+        else:
+            used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", text))
     assert closure(*used) == set(MODULES)

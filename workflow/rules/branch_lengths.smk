@@ -6,7 +6,7 @@ rule branch_lengths:
         packings=of_all_seeds("packing.npz"),
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
-        code=code("branch_lengths", "energy_split", "ensemble", "tables"),
+        code=code("branch_lengths"),
     output:
         table="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",

@@ -1,7 +1,7 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
 from branchcrush.config import REFINED, refined
-from branchcrush.source_files import module_files
+from branchcrush.source_files import source_files
 
 SAMPLES = dict(SETTINGS.samples)
 # No result of `all`: only `convergence` asks for them.
@@ -29,6 +29,6 @@ def of_all_seeds(file):
     ]
 
 
-def code(*modules):
-    """Return the files of modules and of all they import: an edit reruns what depends on it."""
-    return module_files(*modules)
+def code(script):
+    """Return the modules that a script runs: an edit of one reruns the jobs that depend on it."""
+    return source_files(workflow.source_path(f"../scripts/{script}.py"))

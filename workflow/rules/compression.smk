@@ -17,7 +17,7 @@ rule compression:
                 "mod.state",
             ],
         ),
-        code=code("simulation", "tables"),
+        code=code("compression"),
     output:
         path="results/{sample}/seed_{seed}/path.csv",
         contacts="results/{sample}/seed_{seed}/contacts.parquet",

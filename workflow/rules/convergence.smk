@@ -10,7 +10,7 @@ rule convergence:
             for name, sample in {**SAMPLES, **REFINED_SAMPLES}.items()
             for seed in sample.seeds
         ],
-        code=code("report", "tables"),
+        code=code("convergence"),
     output:
         "results/convergence.csv",
     log:

@@ -5,7 +5,7 @@ rule energy_split:
     input:
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
-        code=code("energy_split", "ensemble", "tables"),
+        code=code("energy_split"),
     output:
         table="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",

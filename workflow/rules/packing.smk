@@ -3,7 +3,7 @@
 
 rule packing:
     input:
-        code=code("packing", "gradings", "tables"),
+        code=code("packing"),
     output:
         packing="results/{sample}/seed_{seed}/packing.npz",
         data="results/{sample}/seed_{seed}/packing.data",
@@ -22,7 +22,7 @@ rule packing:
 rule grading:
     input:
         packings=of_all_seeds("packing.npz"),
-        code=code("gradings", "tables"),
+        code=code("grading"),
     output:
         "results/{sample}/grading.csv",
     log:

@@ -25,15 +25,7 @@ rule figures:
         paths=of_all_seeds("path.csv"),
         packings=of_all_seeds("packing.npz"),
         particles=of_all_seeds("particles.dump.gz"),
-        code=code(
-            "plotting.distributions",
-            "plotting.energy",
-            "plotting.curves",
-            "plotting.spheres",
-            "ensemble",
-            "lammps_files",
-            "tables",
-        ),
+        code=code("figures"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in FIGURES},
     log:
@@ -53,7 +45,7 @@ rule comparison:
     input:
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
-        code=code("report", "tables"),
+        code=code("comparison"),
     output:
         "results/comparison.csv",
     log:
@@ -81,7 +73,7 @@ rule report:
             for seed in sample.seeds
         ],
         figures=expand("results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES),
-        code=code("report", "tables"),
+        code=code("report"),
     output:
         "results/report.html",
     log:

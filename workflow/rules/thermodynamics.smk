@@ -5,7 +5,7 @@ rule thermodynamics:
     input:
         paths=of_all_seeds("path.csv"),
         fit="results/{sample}/energy_split.json",
-        code=code("crushing_curves", "tables"),
+        code=code("thermodynamics"),
     output:
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",

@@ -1,7 +1,5 @@
 """Measure the distribution of branch lengths at the end of the loading path."""
 
-from snakemake.script import snakemake
-
 from branchcrush import gradings
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
 from branchcrush.energy_split import bin_edges

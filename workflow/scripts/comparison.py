@@ -1,7 +1,5 @@
 """Put the samples beside each other, a row each."""
 
-from snakemake.script import snakemake
-
 from branchcrush.jobs import job
 from branchcrush.report import comparison_row
 from branchcrush.tables import provenance, read_json, write_table

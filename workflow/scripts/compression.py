@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-from snakemake.script import snakemake
-
 from branchcrush.jobs import job
 from branchcrush.simulation import compress, compression_variables
 from branchcrush.tables import provenance, read_packing, write_table

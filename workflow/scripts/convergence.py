@@ -1,7 +1,5 @@
 """Compare every sample with itself at twice the strain steps."""
 
-from snakemake.script import snakemake
-
 from branchcrush.config import REFINED
 from branchcrush.jobs import job
 from branchcrush.report import convergence_rows

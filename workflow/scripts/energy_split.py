@@ -1,7 +1,5 @@
 """Fit the energy-split function at the end of the path, and its exponent along it."""
 
-from snakemake.script import snakemake
-
 from branchcrush import gradings
 from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import exponents_along_path, final_energy_split

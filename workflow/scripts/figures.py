@@ -1,7 +1,5 @@
 """Draw the figures of a sample."""
 
-from snakemake.script import snakemake
-
 from branchcrush import gradings
 from branchcrush.ensemble import stacked
 from branchcrush.jobs import job

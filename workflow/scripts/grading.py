@@ -1,7 +1,5 @@
 """Write the target grading beside the one that the seeds realise."""
 
-from snakemake.script import snakemake
-
 from branchcrush import gradings
 from branchcrush.jobs import job
 from branchcrush.tables import provenance, read_packing, write_table

@@ -1,7 +1,6 @@
 """Draw the radii of a seed and place the grains at random."""
 
 import numpy as np
-from snakemake.script import snakemake
 
 from branchcrush import gradings
 from branchcrush.jobs import job

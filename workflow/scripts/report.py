@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-from snakemake.script import snakemake
-
 from branchcrush.jobs import job
 from branchcrush.report import render_report
 from branchcrush.tables import read_json, read_table

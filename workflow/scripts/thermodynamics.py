@@ -1,7 +1,5 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
-from snakemake.script import snakemake
-
 from branchcrush import gradings
 from branchcrush.crushing_curves import crushing_curves
 from branchcrush.energy_split import Interval
