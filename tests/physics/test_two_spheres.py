@@ -69,6 +69,12 @@ def test_stored_energy_is_that_of_three_springs_and_the_work_within_a_thousandth
     assert last["work_J"] > last["elastic_energy_J"]
 
 
+def test_work_is_the_stress_times_the_decrease_of_the_volume(pair):
+    stress, volume = (pair.path[name].to_numpy()[1:] for name in ("mean_stress_Pa", "volume_m3"))
+    work = np.sum((stress[1:] + stress[:-1]) / 2.0 * (volume[:-1] - volume[1:]))
+    np.testing.assert_allclose(pair.path["work_J"].iloc[-1], work, rtol=1e-3)
+
+
 @pytest.mark.parametrize("steps", [5, 20])
 def test_work_is_what_each_affine_step_adds_to_the_energy_of_the_springs(squeezed, steps):
     # A step takes a quarter of its shortening from each wall contact and half from the other:

@@ -211,6 +211,17 @@ def test_nothing_but_the_file_itself_is_left(tmp_path, name):
 
 
 @every_file
+def test_file_is_replaced_as_a_whole(tmp_path, name):
+    path = tmp_path / name
+    path.write_bytes(b"the old content")
+    with path.open("rb") as reader:
+        WRITERS[name](path)
+        # Who opened the old file reads it to its end; only a new opening finds the new one.
+        assert reader.read() == b"the old content"
+    assert path.read_bytes() != b"the old content"
+
+
+@every_file
 def test_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, name):
     path = tmp_path / name
     path.write_bytes(b"the old content")

@@ -4,7 +4,7 @@ from branchcrush import gradings
 from branchcrush.ensemble import stacked
 from branchcrush.jobs import job
 from branchcrush.lammps_files import read_dump
-from branchcrush.plotting import curves, distributions, energy
+from branchcrush.plotting import crushing, distributions, energy, loading
 from branchcrush.plotting.spheres import plot_packing
 from branchcrush.plotting.style import SIZE, figure
 from branchcrush.tables import read_json, read_packing, read_table
@@ -51,17 +51,17 @@ with job(snakemake.log[0]):
         energy.plot_exponent_path(read_table(files.split_path), fit, ax)
 
     with figure(output.loading_path, dpi, (2 * SIZE[0], 2 * SIZE[1]), (2, 2)) as panels:
-        curves.plot_mean_stress(path, panels[0, 0])
-        curves.plot_energy_balance(path, panels[0, 1])
-        curves.plot_coordination(path, panels[1, 0])
-        curves.plot_elastic_law(path, summary, panels[1, 1])
+        loading.plot_mean_stress(path, panels[0, 0])
+        loading.plot_energy_balance(path, panels[0, 1])
+        loading.plot_coordination(path, panels[1, 0])
+        loading.plot_elastic_law(path, summary, panels[1, 1])
 
     with figure(output.crushing_model, dpi, (2 * SIZE[0], 3 * SIZE[1]), (3, 2)) as panels:
-        curves.plot_reference_energy(model, panels[0, 0])
-        curves.plot_family(
+        crushing.plot_reference_energy(model, panels[0, 0])
+        crushing.plot_family(
             model, "free_energy_J_per_m3", r"free energy $\Psi$ [MJ/m³]", panels[0, 1]
         )
-        curves.plot_family(model, "stress_Pa", r"mean stress $\sigma$ [MPa]", panels[1, 0])
-        curves.plot_crushing(model, summary, panels[1, 1])
-        curves.plot_driving_force(model, panels[2, 0])
-        curves.plot_dissipation(model, panels[2, 1])
+        crushing.plot_family(model, "stress_Pa", r"mean stress $\sigma$ [MPa]", panels[1, 0])
+        crushing.plot_crushing(model, summary, panels[1, 1])
+        crushing.plot_driving_force(model, panels[2, 0])
+        crushing.plot_dissipation(model, panels[2, 1])

@@ -70,7 +70,10 @@ def plot_cubic(table, fit, ax=None):
         label=f"f = {fit['cubic_slope']:.3f} $(l/l_r)^3$, $R^2$ = {fit['cubic_r_squared']:.4f}",
     )
     ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
-    _mark_thin(ax, x, table["f"], table["branches"])
+    thin = table["branches"][table["branches"] < THIN]
+    if len(thin):
+        # Next to 0 they lie on top of each other, too close for a number each.
+        ax.plot([], [], " ", label=f"bins below {THIN} branches: {', '.join(map(str, thin))}")
     ax.set(xlabel=r"$(l/l_r)^3$ [-]", ylabel=r"energy split $f(l)$ [-]")
     ax.set(xlim=(0, None), ylim=(0, None))
     ax.legend(loc="upper left")

@@ -1,0 +1,152 @@
+"""The loading path as measured: stress, energies, coordination."""
+
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+
+
+def plot_mean_stress(path, ax=None):
+    """Draw the mean stress of every seed against solid fraction.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `ensemble.stacked`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    _each_seed(ax, path, path["mean_stress_Pa"] / 1e6)
+    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="mean stress [MPa]")
+    ax.legend(loc="upper left")
+    return ax
+
+
+def plot_energy_balance(path, ax=None):
+    """Draw work, stored and dissipated energy per volume, means over the seeds.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `ensemble.stacked`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    names = {
+        "work_J": ("work on the boundary", FAINT),
+        "elastic_energy_J": ("stored, elastic", MEASURED),
+        "dissipated_J": ("dissipated by rearrangement", MODEL),
+    }
+    for column, (label, color) in names.items():
+        density = (path[column] / path["volume_m3"] / 1e6).groupby(path["state"]).mean()
+        phi = path.groupby("state")["solid_fraction"].mean()
+        ax.plot(phi[1:], density[1:], "o-", color=color, label=label)
+    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="energy per volume [MJ/m³]")
+    ax.legend(loc="upper left")
+    return ax
+
+
+def plot_coordination(path, ax=None):
+    """Draw the coordination numbers and the share of rattlers, means over the seeds.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `ensemble.stacked`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    mean = path[path["carries_load"]].groupby("state").mean(numeric_only=True)
+    phi = mean["solid_fraction"]
+    ax.plot(
+        phi,
+        mean["mechanical_coordination_number"],
+        "o-",
+        color=MODEL,
+        label=r"$\kappa^*$ without rattlers",
+    )
+    ax.plot(phi, mean["coordination_number"], "o-", color=MEASURED, label=r"$\kappa$ of all grains")
+    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="coordination number [-]", ylim=(0, None))
+    share = ax.twinx()
+    share.plot(phi, 100 * mean["rattler_fraction"], "s--", color=OTHER)
+    share.set_ylabel("rattlers [%]", color=OTHER)
+    share.set_ylim(0, 100)
+    share.spines["right"].set_visible(True)
+    ax.plot([], [], "s--", color=OTHER, label="rattlers (right)")
+    ax.legend(loc="best")
+    return ax
+
+
+def plot_elastic_law(path, summary, ax=None):
+    """Draw the measured elastic energy and the law fitted to it, per volume at jamming.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `ensemble.stacked`.
+    summary : dict
+        `thermodynamics.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    jamming = summary["jamming_solid_fraction"]
+    strain = 1 - jamming / path["solid_fraction"]
+    density = path["elastic_energy_J"] / path["volume_m3"] * jamming / path["solid_fraction"]
+    shown = strain > -0.1
+    ax.plot(
+        100 * strain[shown],
+        density[shown] * 1e-6,
+        ".",
+        color=MEASURED,
+        alpha=0.5,
+        label="each seed",
+    )
+    line = 100 * strain[shown].sort_values().clip(lower=0)
+    power = summary["elastic_exponent"] + 1
+    law = summary["elastic_modulus_Pa"] / power * (line / 100) ** power
+    label = (
+        rf"$A\,\epsilon^{{m+1}}/(m+1)$, A = {summary['elastic_modulus_Pa'] / 1e6:.0f} MPa,"
+        f"\nm = {summary['elastic_exponent']:.2f}, "
+        rf"$\phi_J$ = {jamming:.3f}, $R^2$ = {summary['elastic_r_squared']:.4f}"
+    )
+    ax.plot(line, law * 1e-6, color=MODEL, label=label)
+    ax.set(
+        xlabel=r"volumetric strain from jamming $\epsilon$ [%]",
+        ylabel=r"elastic energy $\Psi_0$ [MJ/m³]",
+    )
+    ax.legend(loc="upper left")
+    return ax
+
+
+def _each_seed(ax, path, values):
+    for number, (_, seed) in enumerate(path.groupby("seed_number")):
+        label = "each seed" if number == 0 else None
+        ax.plot(
+            seed["solid_fraction"],
+            values[seed.index],
+            color=MEASURED,
+            alpha=0.3,
+            lw=0.7,
+            label=label,
+        )
+    mean = values.groupby(path["state"]).mean()
+    ax.plot(
+        path.groupby("state")["solid_fraction"].mean(),
+        mean,
+        "o-",
+        color=MODEL,
+        label="mean of seeds",
+    )

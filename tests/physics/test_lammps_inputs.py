@@ -1,0 +1,87 @@
+"""lammps_inputs/README.md says what the script does, and the dumps open where it says they open."""
+
+import re
+import shutil
+import subprocess
+import zlib
+
+import pandas as pd
+import pytest
+
+from branchcrush.simulation import declared_variables
+from branchcrush.tables import write_packing
+
+
+@pytest.fixture(scope="module")
+def readme(lammps_inputs):
+    return (lammps_inputs / "README.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def output(lammps_inputs, lmp, tmp_path_factory):
+    """Return the folder of the shortest possible run of the default packing."""
+    folder = shutil.copytree(lammps_inputs, tmp_path_factory.mktemp("output") / "inputs")
+    command = [lmp, "-in", "in.compress", "-var", "steps", "4"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120)
+    return folder
+
+
+def columns_told(readme, file):
+    """Return the names in the first column of the table that follows the name of a file."""
+    table = readme.split(f"\n`{file}`, a ")[1].split("\n\n")[1]
+    return [name for row in table.splitlines() for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+
+
+def test_every_variable_is_in_the_table_with_its_default(readme, lammps_inputs):
+    script = (lammps_inputs / "in.compress").read_text()
+    defaults = dict(re.findall(r"^variable (\w+) +index (\S+)$", script, re.MULTILINE))
+    rows = re.findall(r"^\| `(\w+)` \| `(\S+)` \| (\S*) ?\| (.+) \|$", readme, re.MULTILINE)
+    assert [(name, default) for name, default, _, _ in rows] == list(defaults.items())
+    assert defaults.keys() == declared_variables(lammps_inputs / "in.compress")
+
+
+def test_every_variable_of_the_table_is_used(lammps_inputs):
+    files = [path.read_text() for path in lammps_inputs.glob("*") if path.suffix != ".md"]
+    script = re.sub(r"^variable \w+ +index .*$", "", "\n".join(files), flags=re.MULTILINE)
+    for name in declared_variables(lammps_inputs / "in.compress"):
+        assert re.search(rf"\$\{{{name}\}}|v_{name}\b", script), f"{name} is declared, never used"
+
+
+def test_every_column_of_the_states_is_told(readme, output):
+    assert columns_told(readme, "states.csv") == list(pd.read_csv(output / "states.csv").columns)
+
+
+def test_the_lines_for_a_packing_of_the_workflow_print_the_variables_of_its_run(
+    readme, lammps_inputs, random_grains, tmp_path, monkeypatch, capsys
+):
+    positions, radii, edge = random_grains(10, 1, periodic=False)
+    write_packing(tmp_path / "results/paper/seed_1/packing.npz", positions, radii, edge, {})
+    monkeypatch.chdir(tmp_path)
+    exec(re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)[1], {})
+    words = capsys.readouterr().out.split()
+    assert words[::3] == ["-var"] * (len(words) // 3)
+    given = dict(zip(words[1::3], words[2::3], strict=True))
+    assert given.keys() <= declared_variables(lammps_inputs / "in.compress")
+    assert float(given["final_edge"]) == pytest.approx(0.6 * edge, rel=1e-15)
+
+
+@pytest.mark.parametrize("dump", ["particles.dump.gz", "pairs.dump.gz"])
+def test_every_column_of_a_dump_is_told(readme, output, frames, dump):
+    assert columns_told(readme, dump) == list(frames(output / dump)[-1].columns)
+
+
+@pytest.mark.parametrize("dump", ["particles.dump.gz", "pairs.dump.gz"])
+def test_a_dump_is_one_gzip_stream(output, dump):
+    # OVITO reads the first stream of a file and believes that there is no other frame.
+    stream = zlib.decompressobj(wbits=31)
+    text = stream.decompress((output / dump).read_bytes())
+    assert stream.eof
+    assert stream.unused_data == b""
+    assert text.count(b"ITEM: TIMESTEP") == 3
+
+
+def test_ovito_takes_the_pairs_for_bonds(output):
+    # By the label: under any but these two it makes no bonds of them.
+    stream = zlib.decompressobj(wbits=31)
+    text = stream.decompress((output / "pairs.dump.gz").read_bytes()).decode()
+    assert re.search(r"^ITEM: NUMBER OF (BONDS|ENTRIES)$", text, re.MULTILINE)
