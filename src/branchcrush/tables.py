@@ -52,7 +52,7 @@ def read_table(path):
     """Return a table that `write_table` wrote."""
     if Path(path).suffix == ".parquet":
         return pd.read_parquet(path)
-    return pd.read_csv(path, comment="#", float_precision="round_trip")
+    return pd.read_csv(path, comment="#")
 
 
 def write_json(path, result, origin):

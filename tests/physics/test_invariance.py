@@ -79,7 +79,7 @@ def test_lengths_in_another_binary_unit_scale_every_overlap_exactly(loaded, boun
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_lengths_in_another_decimal_unit_leave_the_exponent(loaded, boundary):
     # A factor of 1000 is not exact in binary, and a packing on its way to jamming amplifies
-    # rounding until contacts differ: along a whole path n of 120 grains moved by 0.02 to 1.9. After
+    # rounding until contacts differ: along a whole path n of 120 grains moved by 0.01 to 2. After
     # one approach step and two loading steps it moved by 2e-7 at most in 24 runs, 1e-13 mostly.
     steps = {"approach_steps": 1, "steps": 2, "steps_per_state": 2}
     metres, millimetres = loaded(boundary, **steps), loaded(boundary, length=1000.0, **steps)

@@ -29,7 +29,9 @@ def output(lammps_inputs, lmp, tmp_path_factory):
 def columns_told(readme, file):
     """Return the names in the first column of the table that follows the name of a file."""
     table = readme.split(f"\n`{file}`, a ")[1].split("\n\n")[1]
-    return [name for row in table.splitlines() for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+    return [
+        name for row in table.splitlines() for name in re.findall(r"`(\w+)`", row.split("|")[1])
+    ]
 
 
 def test_every_variable_is_in_the_table_with_its_default(readme, lammps_inputs):

@@ -199,7 +199,7 @@ def test_stress_of_the_branches_is_that_of_the_boundary(packing):
 
 def test_stress_is_the_virial_of_the_forces_found_from_the_positions(packing, searched):
     _, _, pairs = packing
-    for (row, contacts, walls, frame, search), pair_frame in zip(searched, pairs, strict=True):
+    for (row, _, _, frame, search), pair_frame in zip(searched, pairs, strict=True):
         if not row["carries_load"]:
             continue
         branch = pair_frame.vectors("branch_x", "branch_y", "branch_z")

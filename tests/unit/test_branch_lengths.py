@@ -241,6 +241,7 @@ def test_predicted_density_of_a_bin_is_the_mean_of_the_density_over_it(grading):
     nodes, weight, panels = length_nodes(grading)
     edges = panels[::10]
     table = branch_length_table([[1.5 * RADIUS_MAX]], grading, edges)
-    shares = (weight * random_contact_density(grading, nodes)).reshape(len(edges) - 1, -1).sum(axis=1)
+    parts = (weight * random_contact_density(grading, nodes)).reshape(len(edges) - 1, -1)
+    shares = parts.sum(axis=1)
     found = table["density_random_contact_per_m"] * np.diff(edges)
     assert_allclose(found, shares, rtol=1e-9, atol=1e-12)

@@ -72,8 +72,8 @@ def test_three_keys_of_a_sample_are_enough():
     assert sample.loading.model_dump() == {
         "edge_reduction": 0.4,
         "approach_solid_fraction": 0.55,
-        "steps": 100,
-        "states": 20,
+        "steps": 60,
+        "states": 15,
         "unbalanced_force_ratio": 1e-7,
     }
     assert config.energy_split.model_dump() == {"bins": 20, "confidence": 0.95, "resamples": 2000}
@@ -285,7 +285,7 @@ def test_radii_out_of_order_are_refused_with_both():
 
 
 def test_steps_that_are_no_multiple_of_the_states_are_refused_with_both():
-    message = message_of(config_with("samples.mine.loading", {"steps": 30}))
+    message = message_of(config_with("samples.mine.loading", {"steps": 30, "states": 20}))
     assert message.startswith("config: samples.mine.loading: steps 30")
     assert "multiple of states 20" in message
 
