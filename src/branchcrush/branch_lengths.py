@@ -213,10 +213,16 @@ def branch_length_table(lengths, grading, edges):
 
 
 def _bin_means(grading, edges):
-    # Eq. 4 has its kinks at R_m + R_M, which may fall into a bin: many points a bin, not few.
-    fine = np.linspace(edges[:-1], edges[1:], 201, axis=1)
-    density = random_contact_density(grading, fine.ravel()).reshape(fine.shape)
-    return np.trapezoid(density, fine, axis=1) / np.diff(edges)
+    # Eq. 4 is smooth on either side of its kink at R_m + R_M. Below it, it changes over each decade
+    # of l - R_m, and above it of l - R_M; both run from R_m to R_M.
+    share = 0.0
+    for offset in grading.support():
+        log_edges = np.log(np.clip(edges - offset, *grading.support()))
+        half = np.diff(log_edges)[:, None] / 2.0
+        rest = np.exp(log_edges[:-1, None] + half * (_POINTS[0] + 1.0))
+        density = random_contact_density(grading, (offset + rest).ravel()).reshape(rest.shape)
+        share = share + (half * density * rest) @ _POINTS[1]
+    return share / np.diff(edges)
 
 
 def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):

@@ -1,7 +1,5 @@
 """The configuration: its keys, types, units, defaults and checks."""
 
-import math
-from difflib import get_close_matches
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -14,6 +12,7 @@ from pydantic import (
     model_validator,
 )
 
+from branchcrush.config_messages import problem
 from branchcrush.errors import ConfigError
 
 # Ends the name of a sample run with twice the steps, to judge its convergence.
@@ -187,49 +186,11 @@ def checked_config(raw):
     try:
         return Config.model_validate(raw)
     except ValidationError as error:
-        problems = [_problem(detail) for detail in error.errors()]
-    raise ConfigError("\n".join(f"config: {problem}" for problem in problems))
+        problems = [problem(detail, Config) for detail in error.errors()]
+    raise ConfigError("\n".join(f"config: {line}" for line in problems))
 
 
 def refined(sample):
     """Return the sample with twice the strain steps: what its convergence is judged against."""
     loading = sample.loading.model_copy(update={"steps": 2 * sample.loading.steps})
     return sample.model_copy(update={"loading": loading})
-
-
-def _problem(detail):
-    # A discriminated union puts the form's name and a dict key's check into the path: neither
-    # is a key the user typed.
-    path = [str(p) for p in detail["loc"] if p not in ("uniform", "fractal", "[key]")]
-    key = ".".join(path)
-    if detail["type"] == "extra_forbidden":
-        known = _known_keys(detail["loc"])
-        near = get_close_matches(path[-1], known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"allowed: {', '.join(known)}"
-        return f"{key}: unknown key; {hint}"
-    if detail["type"] == "missing":
-        return f"{key}: missing; give it a value"
-    message = detail["msg"].removeprefix("Value error, ")
-    value = detail["input"]
-    shown = "" if isinstance(value, (dict, BaseModel)) else f" = {_shown(value)}"
-    return f"{key}{shown}: {message[0].lower()}{message[1:]}"
-
-
-def _shown(value):
-    return f"{value:g}" if isinstance(value, float) and math.isfinite(value) else repr(value)
-
-
-def _known_keys(location):
-    """Return the keys allowed beside the one at a location of the schema."""
-    model = Config
-    forms = {"uniform": UniformGrading, "fractal": FractalGrading}
-    for part in location[:-1]:
-        if part in forms:
-            model = forms[part]
-        elif part == "samples":
-            model = Sample
-        elif part == "grading" or (model is Sample and part not in Sample.model_fields):
-            continue  # the form follows; or this is the sample's own name
-        else:
-            model = model.model_fields[part].annotation
-    return list(model.model_fields)

@@ -12,8 +12,8 @@ from scipy import stats
 
 from branchcrush.errors import FitError
 
-_ITERATIONS = 100
-_CONVERGED = 1e-12
+_ITERATIONS = 200
+_CONVERGED = 1e-11
 
 
 class PowerLaw(NamedTuple):
@@ -117,7 +117,7 @@ def power_law_fit(length, energy, weight=1.0):
     Raises
     ------
     FitError
-        When fewer than two lengths carry energy, or the fit does not converge.
+        When fewer than two lengths carry finite energy, or the fit does not converge.
 
     Examples
     --------
@@ -131,31 +131,34 @@ def power_law_fit(length, energy, weight=1.0):
     """
     length, energy = np.asarray(length, dtype=float), np.asarray(energy, dtype=float)
     weight = np.broadcast_to(np.asarray(weight, dtype=float), energy.shape)
-    used = (weight > 0) & (energy > 0)
-    if np.any(np.count_nonzero(used & (length > 0), axis=-1) < 2):
-        raise FitError("a power law needs energy at two or more branch lengths")
+    used = (weight > 0) & (energy > 0) & (length > 0)
+    first = np.where(used, length, np.inf).min(axis=-1, initial=np.inf)
+    last = np.where(used, length, -np.inf).max(axis=-1, initial=-np.inf)
+    if not np.all(np.isfinite(energy)) or np.any(first >= last):
+        raise FitError("a power law needs finite energy at two or more branch lengths")
     scale = np.average(length, weights=weight.reshape(-1, length.size).sum(axis=0))
     x = np.log(length / scale)
-    energy_scale = (weight * energy).sum(axis=-1, keepdims=True) / weight.sum(-1, keepdims=True)
-    y = energy / energy_scale
-
-    # Iteratively reweighted least squares; with this link the weights do not change.
     total = weight.sum(axis=-1)
-    mean_x = (weight * x).sum(axis=-1) / total
-    centred = x - mean_x[..., None]
-    spread = (weight * centred**2).sum(axis=-1)
+    energy_scale = (weight * energy).sum(axis=-1, keepdims=True) / total[..., None]
+    y = energy / energy_scale
+    centred = x - ((weight * x).sum(axis=-1) / total)[..., None]
+
+    # Newton's method on the deviance, which is convex in intercept and slope. Steps are bounded:
+    # where a mean is far too high, its energy hardly counts and the full step overshoots.
     intercept, slope = np.zeros(total.shape), np.full(total.shape, 3.0)
     for _ in range(_ITERATIONS):
-        residual = y * np.exp(-intercept[..., None] - slope[..., None] * centred) - 1.0
-        # A step is bounded: far from the solution the exponential overshoots.
-        step_intercept = np.clip((weight * residual).sum(axis=-1) / total, -1.0, 1.0)
-        step_slope = np.clip((weight * centred * residual).sum(axis=-1) / spread, -1.0, 1.0)
-        intercept, slope = intercept + step_intercept, slope + step_slope
-        if max(np.abs(step_intercept).max(), np.abs(step_slope).max()) < _CONVERGED:
+        ratio = weight * y * np.exp(-intercept[..., None] - slope[..., None] * centred)
+        zeroth, first, second = (np.sum(ratio * centred**k, axis=-1) for k in range(3))
+        excess, tilt = zeroth - total, first - (weight * centred).sum(axis=-1)
+        determinant = zeroth * second - first**2
+        steps = (second * excess - first * tilt, zeroth * tilt - first * excess)
+        steps = [np.clip(step / determinant, -1.0, 1.0) for step in steps]
+        intercept, slope = intercept + steps[0], slope + steps[1]
+        if max(np.abs(step).max() for step in steps) < _CONVERGED:
             break
     else:
         raise FitError("the power-law fit did not converge: too few branches carry energy")
-    log_amplitude = intercept - slope * (mean_x + np.log(scale))
+    log_amplitude = intercept - slope * (x - centred)[..., 0] - slope * np.log(scale)
     return PowerLaw(energy_scale[..., 0] * np.exp(log_amplitude), slope)
 
 

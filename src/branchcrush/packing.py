@@ -80,7 +80,7 @@ def random_packing(radii, edge, *, periodic, rng, largest_attempts=20_000):
     for n, radius in enumerate(radii):
         reach = edge / 2.0 if periodic else edge / 2.0 - radius
         contact_squared = (radii[:n] + radius) ** 2
-        for _ in range(largest_attempts // _TRIES_AT_ONCE):
+        for _ in range(-(-largest_attempts // _TRIES_AT_ONCE)):
             tries = rng.uniform(-reach, reach, size=(_TRIES_AT_ONCE, 3))
             placed = centres[:n]
             free = next(

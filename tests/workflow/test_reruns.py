@@ -14,7 +14,7 @@ PACKING = {"packing", "grading"} | LOADING
 @pytest.fixture
 def study(finished):
     yield finished
-    finished.configure(study.tiny)
+    finished.configure(finished.tiny)
 
 
 def test_a_second_run_does_nothing(study):

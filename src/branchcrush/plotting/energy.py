@@ -24,6 +24,7 @@ def plot_energy_split(table, fit, ax=None):
     Axes
     """
     ax = axes(ax)
+    empty = int((table["branches"] == 0).sum())
     table = table[table["branches"] > 0]
     x = table["branch_length_m"] / fit["reference_length_m"]
     line = np.linspace(0.0, x.max() * 1.03, 200)
@@ -39,7 +40,7 @@ def plot_energy_split(table, fit, ax=None):
         )
     ax.plot(line, line ** fit["exponent"], color=MODEL, label=f"$(l/l_r)^n$, n = {interval}")
     ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
-    _mark_thin(ax, x, table["f"], table["branches"])
+    _mark_thin(ax, x, table["f"], table["branches"], empty)
     ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
     # With few seeds the band would dwarf the data.
     ax.set(xlim=(0, None), ylim=(0, 1.35 * table["f"].max()))
@@ -120,7 +121,7 @@ def plot_exponent_path(path, fit, ax=None):
     return ax
 
 
-def _mark_thin(ax, x, y, counts):
+def _mark_thin(ax, x, y, counts, empty):
     for position, height, count in zip(x, y, counts, strict=True):
         if count < THIN:
             ax.annotate(
@@ -132,8 +133,9 @@ def _mark_thin(ax, x, y, counts):
                 fontsize=5.5,
                 color=FAINT,
             )
-    if (counts < THIN).any():
-        ax.plot([], [], " ", label=f"small numbers: branches in bins below {THIN}")
+    if (counts < THIN).any() or empty:
+        label = f"small numbers: branches in bins below {THIN}; {empty} bins are empty"
+        ax.plot([], [], " ", label=label)
 
 
 def _title(fit):
