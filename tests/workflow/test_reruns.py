@@ -47,7 +47,7 @@ def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules)
         ("src/branchcrush/plotting/energy.py", FIGURES),
         ("src/branchcrush/thermodynamics.py", MODEL),
         ("src/branchcrush/loading_path.py", LOADING),
-        ("src/branchcrush/packing.py", PACKING - {"grading"}),
+        ("src/branchcrush/packing.py", PACKING),
         ("lammps_inputs/mod.relax", LOADING),
         ("workflow/report/report.html.jinja", {"report"}),
     ],
