@@ -134,7 +134,7 @@ def _mark_thin(ax, x, y, counts, empty):
                 color=FAINT,
             )
     if (counts < THIN).any() or empty:
-        label = f"small numbers: branches in bins below {THIN}; {empty} bins are empty"
+        label = f"small numbers: branches in bins\nbelow {THIN}; {empty} bins are empty"
         ax.plot([], [], " ", label=label)
 
 
