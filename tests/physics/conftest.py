@@ -8,12 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush import gradings
+from branchcrush.contact_law import HertzContact, LinearContact
 from branchcrush.loading_path import force_floor
 from branchcrush.packing import cube_edge, random_packing
 from branchcrush.simulation import compress
 
-STIFFNESS = 1.0e6
+STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
+LAWS = {"linear": LinearContact, "hertz": HertzContact}
 
 
 class Compression(NamedTuple):
@@ -22,6 +23,7 @@ class Compression(NamedTuple):
     path: pd.DataFrame
     contacts: pd.DataFrame
     walls: pd.DataFrame
+    steps: pd.DataFrame
     variables: dict
     folder: Path
 
@@ -48,7 +50,7 @@ def random_grains():
 
     def place(grains, seed, *, periodic):
         rng = np.random.default_rng(seed)
-        radii = np.sort(gradings.uniform(0.2e-3, 1e-3).rvs(size=grains, random_state=rng))[::-1]
+        radii = np.sort(rng.uniform(0.2e-3, 1e-3, grains))[::-1]
         edge = cube_edge(radii, 0.16)
         return random_packing(radii, edge, periodic=periodic, rng=rng), radii, edge
 
@@ -61,12 +63,18 @@ def compressed(lammps_inputs):
 
     def run(packing, folder, *, inputs=lammps_inputs, **variables):
         positions, radii, edge = packing
+        law = variables.get("law", "linear")
+        stiffness = variables.get("stiffness", STIFFNESS[law])
+        largest = float(np.max(radii))
         variables = {
             "boundary": "walls",
-            "normal_stiffness": STIFFNESS,
+            "control": "edge",
+            "law": law,
+            "stiffness": stiffness,
             "state_tolerance": 1e-7,
-            "force_floor": force_floor(radii, variables.get("normal_stiffness", STIFFNESS)),
-            "skin": 0.1 * float(np.max(radii)),
+            "force_floor": force_floor(radii, LAWS[law](stiffness)),
+            "largest_radius": largest,
+            "skin": 0.1 * largest,
             **variables,
         }
         tables = compress(
@@ -81,6 +89,21 @@ def compressed(lammps_inputs):
         return Compression(*tables, variables, folder)
 
     return run
+
+
+@pytest.fixture(scope="session")
+def even_edges():
+    """Return a function that gives the variables of equal steps from one edge to another."""
+
+    def variables(first, last, *, steps, states, unloading=False):
+        edges = [first + (last - first) * k / states for k in range(states + 1)]
+        # Where the cell is smallest, equal steps strain it most.
+        strain = np.log(edges[-2] / edges[-1]) * states / steps
+        back = edges[-2::-1] if unloading else []
+        targets = [float(edge) for edge in edges[1:] + back]
+        return {"approach_edge": first, "targets": targets, "strain_step": float(strain)}
+
+    return variables
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush import gradings
+from branchcrush.contact_law import HertzContact, LinearContact
 from branchcrush.lammps_files import write_data_file
 from branchcrush.packing import random_packing
 from branchcrush.simulation import compression_variables, declared_variables
@@ -21,18 +21,22 @@ DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 def default_packing():
     """Place the grains of lammps_inputs/packing.data, as its first line says."""
     rng = np.random.default_rng(1)
-    radii = np.sort(gradings.uniform(0.2e-3, 1.0e-3).rvs(size=60, random_state=rng))[::-1]
+    radii = np.sort(rng.uniform(0.2e-3, 1.0e-3, 60))[::-1]
     return random_packing(radii, 8.0e-3, periodic=False, rng=rng), radii, 8.0e-3
 
 
 def defaults(inputs):
-    """Return the numbers and the boundary that in.compress declares."""
+    """Return what in.compress declares, as `compress` takes it."""
     text = (inputs / "in.compress").read_text()
-    found = dict(re.findall(r"^variable (\w+) +index (\S+)$", text, re.MULTILINE))
-    assert found.keys() == declared_variables(inputs / "in.compress")
+    found = dict(re.findall(r"^variable (\w+) +index (.+)$", text, re.MULTILINE))
+    assert set(found) == set(declared_variables(inputs / "in.compress"))
     for name in ("data", "inputs", "output_folder", "quit_on_failure"):
         del found[name]
-    return {n: text if n == "boundary" else literal_eval(text) for n, text in found.items()}
+    words = {"boundary", "law", "control"}
+    variables = {
+        n: text if n in words else literal_eval(text) for n, text in found.items() if n != "targets"
+    }
+    return {**variables, "targets": [float(word) for word in found["targets"].split()]}
 
 
 @pytest.fixture
@@ -42,7 +46,8 @@ def by_hand(lmp):
     def run(folder, **variables):
         command = [lmp, "-in", "in.compress"]
         for name, value in variables.items():
-            command += ["-var", name, str(value)]
+            values = value if isinstance(value, list) else [value]
+            command += ["-var", name, *map(str, values)]
         return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
 
     return run
@@ -54,22 +59,54 @@ def workplace(lammps_inputs, tmp_path):
     return shutil.copytree(lammps_inputs, tmp_path / "inputs")
 
 
-def assert_same_states(states, run):
-    """Compare a states.csv with the path that the package made of its own run."""
+def assert_same_states(folder, run):
+    """Compare states.csv and steps.csv with what the package made of its own run."""
+    states, steps = (pd.read_csv(folder / f"{name}.csv") for name in ("states", "steps"))
     path, edge = run.path, states["edge"]
     assert states["state"].tolist() == path["state"].tolist() == list(range(len(path)))
-    assert states["evaluations"].tolist() == path["force_evaluations"].tolist()
-    assert states["escaped"].tolist() == path["escaped"].tolist()
+    for lammps, ours in (("evaluations", "force_evaluations"), ("escaped",) * 2, ("lost",) * 2):
+        assert states[lammps].tolist() == path[ours].tolist()
     np.testing.assert_array_equal(edge**3, path["volume_m3"])
-    np.testing.assert_array_equal(states["work"], path["work_J"])
+    # The package adds what the end of the approach holds, by energies that LAMMPS does not tell.
+    held = path["elastic_energy_J"].iloc[1]
+    np.testing.assert_array_equal(states["work"].iloc[1:] + held, path["work_J"].iloc[1:])
+    assert states["work"].iloc[0] == path["work_J"].iloc[0] == 0.0
     if run.variables["boundary"] == "periodic":
         np.testing.assert_array_equal(states["pair_pressure"], path["boundary_stress_Pa"])
-    # Sums over contacts, in LAMMPS with 15 digits and here.
+    # Sums over contacts, in LAMMPS with 15 digits and here; without load, of rounding.
     for lammps, ours in (
-        ("elastic_energy", "elastic_energy_J"),
+        ("mean_stress", "mean_stress_Pa"),
         ("unbalanced", "unbalanced_force_ratio"),
     ):
-        np.testing.assert_allclose(states[lammps], path[ours], rtol=1e-12)
+        largest = path[ours].max()
+        np.testing.assert_allclose(states[lammps], path[ours], rtol=1e-12, atol=1e-12 * largest)
+    for lammps, ours in (
+        ("step", "step"),
+        ("evaluations", "force_evaluations"),
+        ("mean_stress", "mean_stress_Pa"),
+        ("unbalanced", "unbalanced_force_ratio"),
+        ("contacts", "contacts"),
+    ):
+        assert steps[lammps].tolist() == run.steps[ours].tolist()
+    np.testing.assert_array_equal(steps["work"] + held, run.steps["work_J"])
+    np.testing.assert_array_equal(steps["edge"] ** 3, run.steps["volume_m3"])
+
+
+def assert_energy_is_that_of_the_dumps(folder, run, frames):
+    """Compare the energies with those of the forces and overlaps in the dumps of another run."""
+    exponent = {"linear": 1.0, "hertz": 1.5}[run.variables["law"]]
+    particles, pairs = (frames(folder / name) for name in DUMPS)
+    for row, grains, contacts in zip(run.path.itertuples(), particles, pairs, strict=True):
+        radius, half = grains.columns["radius"], np.ptp(grains.bounds[0]) / 2.0
+        first, second = (contacts.columns[name].astype(int) - 1 for name in ("id1", "id2"))
+        overlap = radius[first] + radius[second] - contacts.columns["branch"]
+        energy = np.sum(contacts.columns["force"] * overlap)
+        for axis in "xyz":
+            reach = np.abs(grains.columns[axis]) + radius - half
+            energy += np.sum(np.abs(grains.columns[f"v_wall_f{axis}"]) * reach)
+        np.testing.assert_allclose(
+            row.elastic_energy_J, energy / (exponent + 1.0), rtol=1e-9, atol=1e-20
+        )
 
 
 def assert_same_dumps(folder, run):
@@ -80,36 +117,48 @@ def assert_same_dumps(folder, run):
 
 @pytest.mark.parametrize("boundary", ["walls", "periodic"])
 def test_the_default_packing_ends_loaded_and_as_the_package_loads_it(
-    by_hand, workplace, compressed, boundary
+    by_hand, workplace, compressed, frames, boundary
 ):
     chosen = {} if boundary == "walls" else {"boundary": boundary}
     finished = by_hand(workplace, **chosen)
     assert finished.returncode == 0, finished.stdout[-2000:]
-    states = pd.read_csv(workplace / "states.csv")
     variables = {**defaults(workplace), "boundary": boundary}
     run = compressed(default_packing(), workplace.parent / "run", **variables)
-    assert_same_states(states, run)
+    assert_same_states(workplace, run)
     assert_same_dumps(workplace, run)
-    last = run.path.iloc[-1]
-    assert last["carries_load"]
-    assert last["coordination_number"] > 4.0
-    assert len(states) == 2 + variables["steps"] / variables["steps_per_state"]
+    assert_energy_is_that_of_the_dumps(workplace, run, frames)
+    assert len(run.path) == 2 + len(variables["targets"]) == 5
+    densest = run.path.iloc[3]
+    assert densest["carries_load"]
+    assert densest["coordination_number"] > 4.0
+    assert run.path["leg"].iloc[-1] == "unloading"
 
 
+STRAIN = {"target": "edge_reduction", "value": 0.4, "states": 2, "unloading": True}
+STRESS = {"target": "mean_stress", "value": [1e5, 1e6], "unloading": True}
+
+
+# Every two of the choices meet.
+@pytest.mark.parametrize(
+    ("boundary", "law", "loading"),
+    [
+        ("walls", LinearContact(3.0e5), STRAIN),
+        ("walls", HertzContact(1.0e9), STRESS),
+        ("periodic", LinearContact(3.0e5), STRESS),
+        ("periodic", HertzContact(1.0e9), STRAIN),
+    ],
+)
 def test_a_packing_of_the_workflow_is_loaded_as_the_package_loads_it(
-    by_hand, workplace, compressed, random_grains, tmp_path
+    by_hand, workplace, compressed, random_grains, frames, tmp_path, boundary, law, loading
 ):
-    positions, radii, edge = random_grains(40, 2, periodic=True)
+    positions, radii, edge = random_grains(40, 2, periodic=boundary == "periodic")
     variables = compression_variables(
         radii,
-        edge,
-        boundary="periodic",
-        normal_stiffness=3.0e5,
-        edge_reduction=0.4,
-        approach_solid_fraction=0.5,
-        steps=8,
-        states=4,
-        unbalanced_force_ratio=1e-6,
+        0.16,
+        boundary=boundary,
+        law=law,
+        loading={**loading, "approach_solid_fraction": 0.5},
+        strain_step=1.5e-2,
     )
     data = tmp_path / "packing.data"
     write_data_file(data, positions, radii, edge)
@@ -118,8 +167,11 @@ def test_a_packing_of_the_workflow_is_loaded_as_the_package_loads_it(
     finished = by_hand(workplace, data=data, output_folder=out, **variables)
     assert finished.returncode == 0, finished.stdout[-2000:]
     run = compressed((positions, radii, edge), tmp_path / "run", **variables)
-    assert_same_states(pd.read_csv(out / "states.csv"), run)
+    assert run.path["stopped"].iloc[-1] == ""
+    assert run.path["leg"].tolist() == ["loading"] * 4 + ["unloading"]
+    assert_same_states(out, run)
     assert_same_dumps(out, run)
+    assert_energy_is_that_of_the_dumps(out, run, frames)
 
 
 def test_the_default_packing_is_made_as_its_first_line_says(lammps_inputs, tmp_path):

@@ -21,7 +21,7 @@ def readme(lammps_inputs):
 def output(lammps_inputs, lmp, tmp_path_factory):
     """Return the folder of the shortest possible run of the default packing."""
     folder = shutil.copytree(lammps_inputs, tmp_path_factory.mktemp("output") / "inputs")
-    command = [lmp, "-in", "in.compress", "-var", "steps", "4"]
+    command = [lmp, "-in", "in.compress", "-var", "targets", "5.6e-3"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120)
     return folder
 
@@ -36,10 +36,10 @@ def columns_told(readme, file):
 
 def test_every_variable_is_in_the_table_with_its_default(readme, lammps_inputs):
     script = (lammps_inputs / "in.compress").read_text()
-    defaults = dict(re.findall(r"^variable (\w+) +index (\S+)$", script, re.MULTILINE))
-    rows = re.findall(r"^\| `(\w+)` \| `(\S+)` \| (\S*) ?\| (.+) \|$", readme, re.MULTILINE)
+    defaults = dict(re.findall(r"^variable (\w+) +index (.+)$", script, re.MULTILINE))
+    rows = re.findall(r"^\| `(\w+)` \| `([^`]+)` \| (\S*) ?\| (.+) \|$", readme, re.MULTILINE)
     assert [(name, default) for name, default, _, _ in rows] == list(defaults.items())
-    assert defaults.keys() == declared_variables(lammps_inputs / "in.compress")
+    assert set(defaults) == set(declared_variables(lammps_inputs / "in.compress"))
 
 
 def test_every_variable_of_the_table_is_used(lammps_inputs):
@@ -49,8 +49,31 @@ def test_every_variable_of_the_table_is_used(lammps_inputs):
         assert re.search(rf"\$\{{{name}\}}|v_{name}\b", script), f"{name} is declared, never used"
 
 
-def test_every_column_of_the_states_is_told(readme, output):
-    assert columns_told(readme, "states.csv") == list(pd.read_csv(output / "states.csv").columns)
+def test_every_file_is_included_and_every_included_file_is_there(lammps_inputs):
+    files = {path.name for path in lammps_inputs.glob("mod.*")}
+    scripts = [lammps_inputs / name for name in (*files, "in.compress")]
+    text = "\n".join(path.read_text() for path in scripts)
+    included = set(re.findall(r"\$\{inputs\}/(mod\.\w+)", text))
+    chosen = {"mod.walls", "mod.periodic", "mod.linear", "mod.hertz", "mod.edge", "mod.stress"}
+    assert files == included | chosen
+    for variable in ("boundary", "law", "control"):
+        assert f"mod.${{{variable}}}" in text
+
+
+@pytest.mark.parametrize("table", ["states.csv", "steps.csv"])
+def test_every_column_of_a_table_is_told(readme, output, table):
+    assert columns_told(readme, table) == list(pd.read_csv(output / table).columns)
+
+
+def test_the_commands_of_the_readme_run(readme, lammps_inputs, lmp, tmp_path):
+    folder = shutil.copytree(lammps_inputs, tmp_path / "inputs")
+    commands = re.findall(r"^lmp (-in in\.compress.*?)(?: #.*)?$", readme, re.MULTILINE)
+    assert len(commands) == 4
+    for command in commands:
+        finished = subprocess.run(
+            [lmp, *command.split()], cwd=folder, capture_output=True, text=True, timeout=120
+        )
+        assert finished.returncode == 0, finished.stdout[-2000:]
 
 
 def test_the_lines_for_a_packing_of_the_workflow_print_the_variables_of_its_run(
@@ -60,11 +83,13 @@ def test_the_lines_for_a_packing_of_the_workflow_print_the_variables_of_its_run(
     write_packing(tmp_path / "results/paper/seed_1/packing.npz", positions, radii, edge, {})
     monkeypatch.chdir(tmp_path)
     exec(re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)[1], {})
-    words = capsys.readouterr().out.split()
-    assert words[::3] == ["-var"] * (len(words) // 3)
-    given = dict(zip(words[1::3], words[2::3], strict=True))
-    assert given.keys() <= declared_variables(lammps_inputs / "in.compress")
-    assert float(given["final_edge"]) == pytest.approx(0.6 * edge, rel=1e-15)
+    printed = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert all(words[0] == "-var" and len(words) > 2 for words in printed)
+    given = {name: values for _, name, *values in printed}
+    assert set(given) <= set(declared_variables(lammps_inputs / "in.compress"))
+    assert given["control"] == ["edge"]
+    assert len(given["targets"]) == 15
+    assert float(given["targets"][-1]) == pytest.approx(0.6 * edge, rel=1e-14)
 
 
 @pytest.mark.parametrize("dump", ["particles.dump.gz", "pairs.dump.gz"])

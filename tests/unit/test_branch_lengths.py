@@ -14,10 +14,10 @@ from branchcrush.branch_lengths import (
     branch_statistics,
     length_histogram,
     number_of_grains,
-    random_contact_density,
     random_contact_moment,
+    random_contact_shares,
 )
-from branchcrush.gradings import fractal, raw_moment, uniform
+from branchcrush.gradings import fractal, from_radii, lognormal, mixture, single, uniform
 
 RADIUS_MAX = 1e-3
 GRADINGS = {
@@ -25,11 +25,12 @@ GRADINGS = {
     "uniform, ratio 2": uniform(RADIUS_MAX / 2, RADIUS_MAX),
     "fractal 2.6, ratio 200": fractal(RADIUS_MAX / 200, RADIUS_MAX, 2.6),
     "fractal 2.5, ratio 1000": fractal(RADIUS_MAX / 1000, RADIUS_MAX, 2.5),
+    "lognormal by mass": lognormal(RADIUS_MAX / 4, 1.7, RADIUS_MAX / 50, RADIUS_MAX, "mass"),
 }
 any_grading = pytest.mark.parametrize("grading", GRADINGS.values(), ids=GRADINGS)
 
 
-def length_nodes(grading):
+def length_nodes(grading, points=16):
     """Return Gauss-Legendre nodes and weights over all branch lengths, and the panels' edges.
 
     The panels grow from 2 R_m and from the kink at R_m + R_M, where a fractal density is steep.
@@ -39,15 +40,29 @@ def length_nodes(grading):
     growing = np.append(0, np.geomspace(1e-5 * span, span, 30))
     low, kink = 2 * radius_min + growing, radius_min + radius_max + growing
     edges = np.append(low[:-1], kink)
-    x, w = np.polynomial.legendre.leggauss(16)
+    x, w = np.polynomial.legendre.leggauss(points)
     half = np.diff(edges)[:, None] / 2
     return (edges[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel(), edges
 
 
 def moments_of_length(grading):
     """<l^0> to <l^3> by the moments of radius."""
-    r1, r2, r3 = (raw_moment(grading, k) for k in (1, 2, 3))
+    r1, r2, r3 = (grading.moment(k) for k in (1, 2, 3))
     return [1.0, 2 * r1, 2 * r2 + 2 * r1**2, 2 * r3 + 6 * r1 * r2]
+
+
+def density_of_lengths(grading, length):
+    """Return the convolution of Eq. 4 by tanh-sinh, another rule than the one under test."""
+    start, end = grading.support()
+    length = np.asarray(length)[:, None]
+    low, high = np.maximum(start, length - end), np.minimum(end, length - start)
+    t = np.linspace(-3.5, 3.5, 1201)
+    angle = np.pi / 2 * np.sinh(t)
+    half = (high - low) / 2
+    radius = np.clip((low + high) / 2 + half * np.tanh(angle), low, high)
+    weight = half * np.pi / 2 * np.cosh(t) / np.cosh(angle) ** 2 * (t[1] - t[0])
+    other = np.clip(length - radius, start, end)
+    return np.sum(weight * grading.number_pdf(radius) * grading.number_pdf(other), axis=1)
 
 
 # --- Eq. 4 ---------------------------------------------------------------------------------------
@@ -57,20 +72,23 @@ def moments_of_length(grading):
 def test_lengths_of_the_uniform_grading_have_a_triangular_density(ratio):
     radius_min = RADIUS_MAX / ratio
     low, mode, high = 2 * radius_min, radius_min + RADIUS_MAX, 2 * RADIUS_MAX
-    length = np.append(np.linspace(low, high, 101), mode)
-    rising = (length - low) / (mode - low) ** 2
-    falling = (high - length) / (mode - low) ** 2
-    density = random_contact_density(uniform(radius_min, RADIUS_MAX), length)
-    top = 1 / (mode - low)
-    assert_allclose(density, np.minimum(rising, falling), rtol=1e-12, atol=1e-12 * top)
-    assert_allclose(density[-1], top, rtol=1e-12)
+    edges = np.sort(np.append(np.linspace(low, high, 101), mode))
+    width = mode - low
+    rising = (edges - low) ** 2 / (2 * width**2)
+    below = np.where(edges < mode, rising, 1 - (high - edges) ** 2 / (2 * width**2))
+    shares = random_contact_shares(uniform(radius_min, RADIUS_MAX), edges)
+    assert_allclose(shares, np.diff(below), rtol=1e-11, atol=1e-15)
 
 
 @any_grading
-def test_density_of_lengths_integrates_to_1_and_has_the_moments_of_the_sum_of_two_radii(grading):
-    length, weight, _ = length_nodes(grading)
-    density = random_contact_density(grading, length)
-    found = [weight @ (density * length**k) for k in range(4)]
+def test_lengths_have_the_moments_of_the_sum_of_two_radii(grading):
+    length, weight, _ = length_nodes(grading, points=9)
+    low, high = (2 * radius for radius in grading.support())
+    shares = random_contact_shares(grading, [low, *length, high])
+    assert_allclose(shares.sum(), 1.0, rtol=1e-12)
+    # Integrated by parts: <l^k> = l_m^k + int k l^(k-1) (1 - F(l)) dl.
+    above = np.cumsum(shares[::-1])[::-1][1:]
+    found = [low**k + weight @ (k * length ** (k - 1) * above) for k in range(4)]
     assert_allclose(found, moments_of_length(grading), rtol=1e-11)
 
 
@@ -84,44 +102,105 @@ def test_moments_of_length_are_those_of_the_sum_of_two_radii(grading):
 @any_grading
 def test_moment_of_any_order_is_that_of_the_density(grading, order):
     length, weight, _ = length_nodes(grading)
-    expected = weight @ (random_contact_density(grading, length) * length**order)
-    assert_allclose(random_contact_moment(grading, order), expected, rtol=1e-10)
+    expected = weight @ (density_of_lengths(grading, length) * length**order)
+    assert_allclose(random_contact_moment(grading, order), expected, rtol=1e-9)
 
 
 @any_grading
 def test_no_length_is_outside_the_support(grading):
     low, high = (2 * radius for radius in grading.support())
-    outside = [0.0, low / 2, low * (1 - 1e-9), high * (1 + 1e-9), 3 * high]
-    assert_array_equal(random_contact_density(grading, outside), 0.0)
-    inside = np.linspace(low, high, 52)[1:-1]
-    assert np.all(random_contact_density(grading, inside) > 0)
+    edges = [0.0, low / 2, low * (1 - 1e-9), low, high, high * (1 + 1e-9), 3 * high]
+    shares = random_contact_shares(grading, edges)
+    assert_array_equal(shares[[0, 1, 2, 4, 5]], 0.0)
+    assert_allclose(shares[3], 1.0, rtol=1e-13)
+    assert np.all(random_contact_shares(grading, np.linspace(low, high, 52)) > 0)
 
 
 @settings(deadline=None, max_examples=30)
 @given(st.floats(1.1, 500), st.none() | st.floats(0.5, 5.0), st.floats(0.001, 0.999))
-def test_density_of_a_length_is_the_convolution_of_the_radii(ratio, alpha, place):
+def test_share_of_a_narrow_bin_is_the_convolution_of_the_radii(ratio, alpha, place):
     grading = uniform(1.0, ratio) if alpha is None else fractal(1.0, ratio, alpha)
     length = 2.0 + place * (2 * ratio - 2.0)
-    low, high = max(1.0, length - ratio), min(ratio, length - 1.0)
-    # tanh-sinh: another rule than the one under test, at ease with steep ends.
-    t = np.linspace(-3.5, 3.5, 2001)
-    angle = np.pi / 2 * np.sinh(t)
-    radius = (low + high) / 2 + (high - low) / 2 * np.tanh(angle)
-    weight = (high - low) / 2 * np.pi / 2 * np.cosh(t) / np.cosh(angle) ** 2 * (t[1] - t[0])
-    radius = np.clip(radius, low, high)
-    expected = weight @ (grading.pdf(radius) * grading.pdf(np.clip(length - radius, low, high)))
-    assert_allclose(random_contact_density(grading, length), [expected], rtol=1e-9)
+    edges = length + np.array([-1e-5, 1e-5]) * min(length - 2.0, 2 * ratio - length)
+    kink = 1.0 + ratio
+    expected = density_of_lengths(grading, [length])
+    found = random_contact_shares(grading, edges) / np.diff(edges)
+    # At the kink, the mean over the bin is not the value in its middle.
+    near = abs(length - kink) < 1e-3 * length
+    assert_allclose(found, expected, rtol=1e-2 if near else 1e-6)
+
+
+@any_grading
+def test_share_in_the_thin_tail_of_long_branches_keeps_its_digits(grading):
+    high = 2 * grading.support()[1]
+    edges = high * np.array([0.98, 1.0])
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    length = edges[0] + np.diff(edges) / 2 * (nodes + 1)
+    expected = np.diff(edges) / 2 * (weights @ density_of_lengths(grading, length))
+    assert_allclose(random_contact_shares(grading, edges), expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["uniform, ratio 200", "fractal 2.6, ratio 200"])
-def test_sums_of_two_drawn_radii_follow_the_density(name):
+def test_sums_of_two_drawn_radii_follow_the_shares(name):
     grading = GRADINGS[name]
     radii = grading.rvs(size=(2, 20_000), random_state=np.random.default_rng(11))
-    nodes, weight, edges = length_nodes(grading)
-    shares = (weight * random_contact_density(grading, nodes)).reshape(len(edges) - 1, -1)
-    cumulative = PchipInterpolator(edges, np.append(0.0, shares.sum(axis=1).cumsum()))
+    _, _, edges = length_nodes(grading)
+    shares = random_contact_shares(grading, edges)
+    cumulative = PchipInterpolator(edges, np.append(0.0, shares.cumsum()))
     # 20 000 sums show a difference of 0.01 between the two distributions.
     assert stats.kstest(radii.sum(axis=0), cumulative).pvalue > 0.05
+
+
+# --- Eq. 4 of single sizes -----------------------------------------------------------------------
+
+
+def test_all_branches_of_one_size_are_as_long():
+    edges = [1.8, 1.9, 2.0, 2.1, 2.2]
+    assert random_contact_shares(single(1.0), edges).tolist() == [0, 0, 1, 0]
+    # On the last edge as well, as in the histogram of the measured ones.
+    assert random_contact_shares(single(1.0), [1.8, 1.9, 2.0]).tolist() == [0, 1]
+    assert random_contact_moment(single(1.0), 2.5) == pytest.approx(2.0**2.5, rel=1e-15)
+
+
+def test_two_sizes_have_three_lengths():
+    grading = mixture([single(1.0), single(3.0)], [3.0, 1.0], "number")
+    shares = random_contact_shares(grading, [2.0, 3.0, 4.0, 5.0, 6.0])
+    assert_allclose(shares, [9 / 16, 0, 6 / 16, 1 / 16], rtol=1e-15)
+    expected = (9 * 2**2.5 + 6 * 4**2.5 + 6**2.5) / 16
+    assert_allclose(random_contact_moment(grading, 2.5), expected, rtol=1e-14)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.floats(0.1, 1.0), min_size=1, max_size=12), st.integers(1, 30))
+def test_lengths_on_an_edge_are_binned_as_the_measured_ones(radii, bins):
+    # Edges at some of the sums, so that rounding alone could tell the sides apart.
+    sums = np.add.outer(radii, radii).ravel()
+    edges = np.unique(np.append(np.linspace(sums.min(), sums.max() + 0.1, bins + 1), sums[:5]))
+    expected = np.histogram(sums, edges)[0] / sums.size
+    assert_allclose(random_contact_shares(from_radii(radii), edges), expected, atol=1e-14)
+
+
+def test_size_in_a_continuous_grading_meets_both_its_own_and_the_others():
+    grading = mixture([single(2.0), uniform(1.0, 3.0)], [1.0, 3.0], "number")
+    # 1/16 both single, 6/16 one of each: uniform from 3 to 5; 9/16 a triangle from 2 to 6.
+    edges = np.array([2.0, 3.0, 3.5, 4.0, 4.5, 6.0])
+    mixed = np.clip((edges - 3.0) / 2.0, 0, 1)
+    triangle = np.where(edges <= 4, (edges - 2) ** 2 / 8, 1 - (6 - edges) ** 2 / 8)
+    expected = (6 * np.diff(mixed) + 9 * np.diff(triangle)) / 16
+    expected[3] += 1 / 16
+    assert_allclose(random_contact_shares(grading, edges), expected, rtol=1e-12)
+
+
+def test_moment_of_many_given_radii_is_the_double_sum():
+    radii = np.random.default_rng(2).uniform(1.0, 50.0, 1200)
+    found = random_contact_moment(from_radii(radii), 2.7)
+    assert_allclose(found, np.mean(np.add.outer(radii, radii) ** 2.7), rtol=1e-11)
+
+
+def test_table_of_one_size_has_finite_densities():
+    table = branch_length_table([[2.0, 2.0]], single(1.0), np.linspace(1.8, 2.2, 21))
+    measured = table["density_measured_per_m"]
+    assert_allclose(table["density_random_contact_per_m"], measured, rtol=1e-9)
 
 
 # --- Eqs. 2 and 3 --------------------------------------------------------------------------------
@@ -241,7 +320,7 @@ def test_predicted_density_of_a_bin_is_the_mean_of_the_density_over_it(grading):
     nodes, weight, panels = length_nodes(grading)
     edges = panels[::10]
     table = branch_length_table([[1.5 * RADIUS_MAX]], grading, edges)
-    parts = (weight * random_contact_density(grading, nodes)).reshape(len(edges) - 1, -1)
+    parts = (weight * density_of_lengths(grading, nodes)).reshape(len(edges) - 1, -1)
     shares = parts.sum(axis=1)
     found = table["density_random_contact_per_m"] * np.diff(edges)
     assert_allclose(found, shares, rtol=1e-9, atol=1e-12)

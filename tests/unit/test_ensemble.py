@@ -8,10 +8,12 @@ from pandas.testing import assert_frame_equal
 
 from branchcrush.energy_split import bin_edges, binned_sums
 from branchcrush.ensemble import (
+    certified_loading,
+    end_of_loading,
     exponents_along_path,
     final_branches,
     final_energy_split,
-    loaded_states,
+    on_the_way_in,
     split_sums,
     stacked,
 )
@@ -20,7 +22,7 @@ from branchcrush.errors import FitError
 RADIUS_MAX, STIFFNESS, AMPLITUDE = 1e-3, 1e6, 50.0
 EDGES = bin_edges(5e-6, RADIUS_MAX, 20)
 CENTRES = (EDGES[1:] + EDGES[:-1]) / 2
-SETTINGS = {"confidence": 0.95, "resamples": 200}
+SETTINGS = {"jamming": 0.65, "confidence": 0.95, "resamples": 200}
 
 
 def contacts_of(seed, exponents):
@@ -55,8 +57,11 @@ def path_of(carries_load, solid_fraction=0.7):
     return pd.DataFrame(
         {
             "state": states,
+            "leg": "loading",
             "solid_fraction": solid_fraction + 0.01 * states,
+            "volume_m3": 2.0,
             "mean_stress_Pa": 1e5 * states,
+            "elastic_energy_J": 3.0 * states,
             "carries_load": carries_load,
             "coordination_number": 5.0 + states,
             "mechanical_coordination_number": 6.0 + states,
@@ -65,31 +70,109 @@ def path_of(carries_load, solid_fraction=0.7):
     )
 
 
+def certificate_of(*seeds):
+    """Return a `certificate.csv`: a word for each seed, of c certified and n not, u unloading."""
+    rows = [
+        {
+            "seed": seed,
+            "state": state,
+            "leg": "unloading" if letter == "u" else "loading",
+            "certified": letter in "cu",
+        }
+        for seed, letters in enumerate(seeds, start=3)
+        for state, letter in enumerate(letters)
+    ]
+    return pd.DataFrame(rows)
+
+
 @pytest.fixture
 def sample():
-    """Three seeds: no load in state 0, n = 2 in state 1 and n = 3 at the end."""
+    """Three seeds: n = 2 in state 1 and n = 3 at the end, as `certified_loading` leaves them."""
     contacts = [contacts_of(seed, [1.0, 2.0, 3.0]) for seed in range(3)]
-    return contacts, [path_of([False, True, True], 0.7 + 0.001 * seed) for seed in range(3)]
+    paths = [path_of([False, True, True], 0.7 + 0.001 * seed) for seed in range(3)]
+    _, paths, contacts = certified_loading(certificate_of("ncc", "ncc", "ncc"), paths, contacts)
+    return contacts, paths
 
 
 # --- states --------------------------------------------------------------------------------------
 
 
-def test_state_is_loaded_when_every_seed_carries_load():
-    first, second = path_of([False, False, True, True]), path_of([False, True, False, True])
-    assert loaded_states([first]) == [2, 3]
-    assert loaded_states([first, second]) == [3]
+def tables_of(seeds, states=4):
+    paths = [path_of([False] + [True] * (states - 1), 0.7 + 0.01 * seed) for seed in range(seeds)]
+    contacts = [pd.DataFrame({"state": list(range(states)) * 2}) for _ in range(seeds)]
+    return paths, contacts
 
 
-def test_sample_that_ends_unloaded_is_refused_with_its_solid_fraction():
-    loaded, unloaded = path_of([False, True]), path_of([True, False], 0.8)
+def states_in(tables):
+    return [sorted(set(table["state"])) for table in tables]
+
+
+def test_certified_states_of_all_seeds_are_used():
+    used, paths, contacts = certified_loading(certificate_of("nccc", "nccc"), *tables_of(2))
+    assert used == [0, 1]
+    assert states_in(paths) == states_in(contacts) == [[1, 2, 3]] * 2
+    assert [len(table) for table in contacts] == [6, 6]
+    assert paths[0].index.tolist() == [0, 1, 2]
+
+
+def test_state_that_is_not_certified_in_one_seed_is_left_out_of_all():
+    used, paths, contacts = certified_loading(certificate_of("nccc", "nncc"), *tables_of(2))
+    assert used == [0, 1]
+    assert states_in(paths) == states_in(contacts) == [[2, 3]] * 2
+
+
+def test_seed_that_is_not_certified_at_its_end_is_dropped_and_its_states_do_not_count():
+    used, paths, _ = certified_loading(certificate_of("nccc", "nncn", "nccc"), *tables_of(3))
+    assert used == [0, 2]
+    assert states_in(paths) == [[1, 2, 3]] * 2
+    assert [path["solid_fraction"].iloc[0] for path in paths] == pytest.approx([0.71, 0.73])
+
+
+def test_seed_that_stopped_on_the_way_is_dropped():
+    paths, contacts = tables_of(2)
+    used, _, _ = certified_loading(
+        certificate_of("nccc", "ncc"), [paths[0], paths[1][:3]], contacts
+    )
+    assert used == [0]
+
+
+def test_states_on_the_way_back_are_left_out():
+    paths, contacts = tables_of(1, states=5)
+    paths[0].loc[3:, "leg"] = "unloading"
+    used, paths, contacts = certified_loading(certificate_of("nccuu"), paths, contacts)
+    assert used == [0]
+    assert states_in(paths) == states_in(contacts) == [[1, 2]]
+
+
+def test_only_the_first_seeds_of_a_certificate_may_be_asked_for():
+    used, _, _ = certified_loading(certificate_of("nccc", "nncc", "nccn"), *tables_of(2))
+    assert used == [0, 1]
+
+
+def test_sample_without_a_certified_end_is_no_data_and_says_how_far_it_came():
+    paths, contacts = tables_of(2)
+    paths[1]["carries_load"] = False
     with pytest.raises(FitError) as refused:
-        loaded_states([loaded, unloaded])
-    message = str(refused.value)
-    assert message.startswith("1 of 2 packings carry no load at the end of the path")
-    # The mean of 0.71 and 0.81.
-    assert "solid fraction 0.7600" in message
-    assert "raise loading.edge_reduction" in message
+        certified_loading(certificate_of("nccn", "nnnn"), paths, contacts)
+    # The mean of 0.73 and 0.74.
+    assert str(refused.value) == (
+        "no packing is certified at the end of its loading: 1 of 2 carry load there, at a solid "
+        "fraction of 0.7350"
+    )
+
+
+def test_end_of_the_loading_is_before_the_way_back():
+    path = path_of([True] * 4)
+    assert end_of_loading(path)["state"] == 3
+    path.loc[2:, "leg"] = "unloading"
+    assert end_of_loading(path)["state"] == 1
+
+
+def test_way_in_keeps_the_states_before_any_load():
+    paths, _ = tables_of(3)
+    for path in paths:
+        path.loc[3, "leg"] = "unloading"
+    assert states_in(on_the_way_in(paths, [0, 2])) == [[0, 1, 2]] * 2
 
 
 def test_stacked_paths_keep_their_seeds_apart():
@@ -140,6 +223,9 @@ def test_fit_says_what_it_is_made_from(sample):
     _, fit = final_energy_split(contacts, paths, EDGES, **SETTINGS)
     assert (fit["seeds"], fit["branches"], fit["confidence"]) == (3, 500 + 510 + 520, 0.95)
     assert_allclose(fit["solid_fraction"], 0.721, rtol=1e-14)
+    assert (fit["jamming_solid_fraction"], fit["mean_stress_Pa"]) == (0.65, 2e5)
+    # 6 J in 2 m3.
+    assert fit["elastic_energy_J_per_m3"] == 3.0
     assert fit["coordination_number"] == 7.0
     assert fit["mechanical_coordination_number"] == 8.0
     assert fit["rattler_fraction"] == pytest.approx(0.1, rel=1e-14)
@@ -190,12 +276,13 @@ def test_same_tables_give_the_same_result():
         assert_array_equal(table[name], other_table[name])
 
 
-def test_unloaded_sample_is_not_fitted(sample):
+def test_branches_of_one_length_bear_no_exponent(sample):
     contacts, paths = sample
-    paths = [*paths[:2], path_of([False, True, False])]
-    for fit in (final_energy_split, exponents_along_path):
-        with pytest.raises(FitError, match="1 of 3 packings carry no load"):
-            fit(contacts, paths, EDGES, **SETTINGS)
+    same = [
+        table.assign(radius_i_m=CENTRES[9] / 2, radius_j_m=CENTRES[9] / 2) for table in contacts
+    ]
+    with pytest.raises(FitError, match="two or more branch lengths"):
+        final_energy_split(same, paths, EDGES, **SETTINGS)
 
 
 # --- along the path ------------------------------------------------------------------------------
@@ -209,8 +296,20 @@ def test_exponent_is_followed_along_the_loaded_states(sample):
         assert_allclose(along[name], [2.0, 3.0], rtol=0, atol=1e-9)
     assert along["branches"].tolist() == [400 + 410 + 420, 500 + 510 + 520]
     assert_allclose(along["solid_fraction"], [0.711, 0.721], rtol=1e-14)
+    assert_allclose(along["solid_fraction_above_jamming"], [0.061, 0.071], rtol=1e-12)
     assert_allclose(along["mean_stress_Pa"], [1e5, 2e5], rtol=1e-14)
     assert along["median_overlap_ratio"].is_monotonic_decreasing
+
+
+def test_state_with_too_few_branches_has_no_exponent_and_the_others_keep_theirs(sample):
+    contacts, paths = sample
+    # One length alone is left in state 1, as close to jamming.
+    few = [table[table["state"] == 2] for table in contacts]
+    few[0] = pd.concat([contacts[0][contacts[0]["state"] == 1][:1], few[0]])
+    along = exponents_along_path(few, paths, EDGES, **SETTINGS)
+    assert along["state"].tolist() == [1, 2]
+    assert along.loc[0, ["exponent", "exponent_low", "exponent_high"]].isna().all()
+    assert along["exponent"][1] == pytest.approx(3.0, abs=1e-9)
 
 
 def test_last_row_along_the_path_is_the_fit_of_its_end():

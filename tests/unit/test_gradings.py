@@ -9,13 +9,14 @@ from scipy import stats
 
 from branchcrush.gradings import (
     fractal,
-    from_parameters,
+    from_radii,
+    fuller,
+    grading_summary,
     grading_table,
+    mixture,
     particle_diameter,
-    percent_finer_by_mass,
-    quadrature,
-    raw_moment,
     realised_percent_finer,
+    single,
     uniform,
 )
 
@@ -54,7 +55,7 @@ def fractal_moment(radius_min, radius_max, alpha, k):
 def test_moments_of_the_uniform_grading_are_those_of_its_closed_form(ratio, k):
     radius_min = RADIUS_MAX / ratio
     expected = uniform_moment(radius_min, RADIUS_MAX, k)
-    assert_allclose(raw_moment(uniform(radius_min, RADIUS_MAX), k), expected, rtol=1e-13)
+    assert_allclose(uniform(radius_min, RADIUS_MAX).moment(k), expected, rtol=1e-13)
 
 
 @ratios
@@ -62,13 +63,14 @@ def test_mass_of_the_uniform_grading_grows_with_the_fourth_power_of_radius(ratio
     radius_min = RADIUS_MAX / ratio
     radius = np.linspace(radius_min, RADIUS_MAX, 23)
     expected = 100 * (radius**4 - radius_min**4) / (RADIUS_MAX**4 - radius_min**4)
-    finer = percent_finer_by_mass(uniform(radius_min, RADIUS_MAX), radius)
+    finer = 100 * uniform(radius_min, RADIUS_MAX).mass_cdf(radius)
     assert_allclose(finer, expected, rtol=0, atol=1e-10)
 
 
 def test_half_of_the_uniform_grains_are_smaller_than_the_middle_radius():
-    assert uniform(1.0, 3.0).cdf(2.0) == 0.5
-    assert uniform(1.0, 3.0).pdf([0.9, 1.5, 3.1]).tolist() == [0.0, 0.5, 0.0]
+    assert uniform(1.0, 3.0).number_cdf(2.0) == pytest.approx(0.5, rel=1e-15)
+    density = uniform(1.0, 3.0).number_pdf([0.9, 1.5, 3.1])
+    assert_allclose(density, [0.0, 0.5, 0.0], rtol=1e-14)
 
 
 # --- fractal -------------------------------------------------------------------------------------
@@ -79,10 +81,10 @@ def test_half_of_the_uniform_grains_are_smaller_than_the_middle_radius():
 def test_fractal_grading_is_normalised_and_has_the_moments_of_its_closed_form(ratio, alpha):
     radius_min = RADIUS_MAX / ratio
     grading = fractal(radius_min, RADIUS_MAX, alpha)
-    assert_allclose(raw_moment(grading, 0), 1.0, rtol=1e-13)
+    assert_allclose(grading.moment(0), 1.0, rtol=1e-13)
     for k in (1, 2, 3):
         expected = fractal_moment(radius_min, RADIUS_MAX, alpha, k)
-        assert_allclose(raw_moment(grading, k), expected, rtol=1e-13)
+        assert_allclose(grading.moment(k), expected, rtol=1e-13)
 
 
 @alphas
@@ -91,21 +93,21 @@ def test_sieve_curve_of_the_fractal_grading_is_the_power_law_of_its_dimension(ra
     radius_min = RADIUS_MAX / ratio
     radius = np.geomspace(radius_min, RADIUS_MAX, 23)
     power, low, high = (r ** (3 - alpha) for r in (radius, radius_min, RADIUS_MAX))
-    finer = percent_finer_by_mass(fractal(radius_min, RADIUS_MAX, alpha), radius)
+    finer = 100 * fractal(radius_min, RADIUS_MAX, alpha).mass_cdf(radius)
     assert_allclose(finer, 100 * (power - low) / (high - low), rtol=0, atol=1e-10)
 
 
 @alphas
 def test_fractal_density_falls_with_the_power_of_one_plus_alpha(alpha):
-    low, high = fractal(1.0, 200.0, alpha).pdf([2.0, 20.0])
+    low, high = fractal(1.0, 200.0, alpha).number_pdf([2.0, 20.0])
     assert_allclose(low / high, 10 ** (1 + alpha), rtol=1e-12)
 
 
 def test_fractal_grading_ends_at_the_radii_given():
     grading = fractal(5e-6, 1e-3, 2.6)
     assert_allclose(grading.support(), (5e-6, 1e-3), rtol=1e-15)
-    assert grading.cdf(1e-3) == 1.0
-    assert grading.pdf(4.9e-6) == 0.0
+    assert grading.number_cdf(1e-3) == 1.0
+    assert grading.number_pdf(4.9e-6) == 0.0
 
 
 # --- any grading ---------------------------------------------------------------------------------
@@ -117,7 +119,7 @@ def test_sieve_curve_grows_from_0_to_100_percent(grading):
     start, end = grading.support()
     radius = np.geomspace(start, end, 30)
     radius[[0, -1]] = start, end
-    finer = percent_finer_by_mass(grading, radius)
+    finer = 100 * grading.mass_cdf(radius)
     assert finer[0] == 0.0
     assert finer[-1] == pytest.approx(100.0, rel=1e-15)
     assert np.all(np.diff(finer) > 0)
@@ -126,8 +128,8 @@ def test_sieve_curve_grows_from_0_to_100_percent(grading):
 @settings(deadline=None, max_examples=40)
 @given(gradings())
 def test_fewer_percent_of_the_mass_than_of_the_number_is_finer(grading):
-    radius = grading.ppf([0.1, 0.5, 0.9])
-    assert np.all(percent_finer_by_mass(grading, radius) < 100 * grading.cdf(radius))
+    radius = grading.number_ppf([0.1, 0.5, 0.9])
+    assert np.all(grading.mass_cdf(radius) < grading.number_cdf(radius))
 
 
 @settings(deadline=None, max_examples=40)
@@ -135,36 +137,33 @@ def test_fewer_percent_of_the_mass_than_of_the_number_is_finer(grading):
 def test_moments_are_ordered_as_those_of_any_distribution_are(grading):
     # Lyapunov: <R^k>^(1/k) grows with k; equal only if all grains are alike.
     start, end = grading.support()
-    means = [start, *(raw_moment(grading, k) ** (1 / k) for k in (1, 2, 3, 6)), end]
+    means = [start, *(grading.moment(k) ** (1 / k) for k in (1, 2, 3, 6)), end]
     assert np.all(np.diff(means) > 0)
 
 
 @settings(deadline=None, max_examples=20)
 @given(gradings(), st.floats(0.05, 0.95))
 def test_quadrature_over_two_parts_of_the_support_adds_up(grading, share):
-    cut = float(grading.ppf(share))
-    _, below = quadrature(grading, upper=cut)
-    _, above = quadrature(grading, lower=cut)
+    cut = float(grading.number_ppf(share))
+    _, below = grading.quadrature(upper=cut)
+    _, above = grading.quadrature(lower=cut)
     assert_allclose([below.sum(), above.sum()], [share, 1 - share], rtol=1e-9)
 
 
 def test_all_mass_is_finer_than_a_radius_beyond_the_largest_and_none_below_the_smallest():
-    finer = percent_finer_by_mass(uniform(1.0, 2.0), [0.5, 5.0])
-    assert finer.tolist() == [0.0, 100.0]
+    assert uniform(1.0, 2.0).mass_cdf([0.5, 5.0]).tolist() == [0.0, 1.0]
 
 
 @settings(deadline=None, max_examples=20)
-@given(gradings(), st.floats(1e-3, 1e3))
-def test_unit_of_length_does_not_change_the_sieve_curve(grading, unit):
-    start, end = grading.support()
-    radius = np.geomspace(start, end, 9)
-    parameters = {"radius_min": start * unit, "radius_max": end * unit}
-    if grading.dist.name == "truncpareto":
-        other = fractal(**parameters, alpha=grading.kwds["b"])
-    else:
-        other = uniform(**parameters)
-    finer = percent_finer_by_mass(other, radius * unit)
-    assert_allclose(finer, percent_finer_by_mass(grading, radius), rtol=0, atol=1e-9)
+@given(st.floats(1.2, 1000), st.none() | st.floats(0.3, 5.5), st.floats(1e-3, 1e3))
+def test_unit_of_length_does_not_change_the_sieve_curve(ratio, alpha, unit):
+    here, there = (
+        uniform(u, ratio * u) if alpha is None else fractal(u, ratio * u, alpha)
+        for u in (1.0, unit)
+    )
+    radius = np.geomspace(1.0, ratio, 9)
+    finer = 100 * there.mass_cdf(radius * unit)
+    assert_allclose(finer, 100 * here.mass_cdf(radius), rtol=0, atol=1e-9)
 
 
 # --- drawn radii ---------------------------------------------------------------------------------
@@ -174,7 +173,7 @@ def test_unit_of_length_does_not_change_the_sieve_curve(grading, unit):
 def test_drawn_radii_follow_the_cumulative_distribution(grading):
     radii = grading.rvs(size=20_000, random_state=np.random.default_rng(5))
     # 20 000 radii show a difference of 0.01 between the two distributions.
-    assert stats.kstest(radii, grading.cdf).pvalue > 0.05
+    assert stats.kstest(radii, grading.number_cdf).pvalue > 0.05
     start, end = grading.support()
     assert start <= radii.min() < radii.max() <= end
 
@@ -204,24 +203,42 @@ def test_realised_curves_of_many_radii_approach_the_target():
     radius = np.linspace(1e-4, 1e-3, 10)
     by_mass, by_number = realised_percent_finer(radii, radius)
     # Standard errors are below 0.2 percent.
-    assert_allclose(by_mass, percent_finer_by_mass(grading, radius), atol=0.6)
-    assert_allclose(by_number, 100 * grading.cdf(radius), atol=0.6)
+    assert_allclose(by_mass, 100 * grading.mass_cdf(radius), atol=0.6)
+    assert_allclose(by_number, 100 * grading.number_cdf(radius), atol=0.6)
 
 
 def test_diameter_of_a_percentage_is_read_off_the_curve():
-    radius = np.array([1.0, 10.0, 100.0])
-    assert particle_diameter(radius, [0.0, 50.0, 100.0], 50.0) == pytest.approx(20.0, rel=1e-14)
-    # Between two sieves in the logarithm of the diameter.
-    assert particle_diameter(radius, [0.0, 50.0, 100.0], 75.0) == pytest.approx(
-        2 * 10**1.5, rel=1e-14
-    )
+    # D^(1/2) runs from 1 to 3 by mass: half of it is at 2.
+    assert particle_diameter(fuller(0.5, 4.5, 0.5), 50.0) == pytest.approx(4.0, rel=1e-13)
+    assert particle_diameter(from_radii([1.0, 2.0]), 11.0) == 2.0
+    assert particle_diameter(from_radii([1.0, 2.0]), 11.2) == 4.0
 
 
 def test_median_diameter_by_mass_of_the_uniform_grading():
-    radius = np.geomspace(0.5, 1.0, 300)
-    finer = percent_finer_by_mass(uniform(1e-6, 1.0), radius)
     # (D/D_M)^4 = 1/2
-    assert particle_diameter(radius, finer, 50.0) == pytest.approx(2 * 0.5**0.25, rel=3e-6)
+    found = particle_diameter(uniform(0.5e-6, 0.5), 50.0)
+    assert found == pytest.approx(0.5**0.25, rel=1e-12)
+
+
+def test_summary_of_fullers_curve_follows_from_its_formula():
+    # D_x = (D_m^q + x (D_M^q - D_m^q))^(1/q)
+    low, high, q = 2e-4, 2e-2, 0.45
+    d10, d30, d50, d60 = (
+        (low**q + x * (high**q - low**q)) ** (1 / q) for x in (0.1, 0.3, 0.5, 0.6)
+    )
+    found = grading_summary(fuller(low / 2, high / 2, q))
+    assert_allclose([found["D_min_m"], found["D_max_m"]], [low, high], rtol=1e-15)
+    diameters = [found[f"D{x}_m"] for x in (10, 30, 50, 60)]
+    assert_allclose(diameters, [d10, d30, d50, d60], rtol=1e-12)
+    assert found["uniformity_coefficient"] == pytest.approx(d60 / d10, rel=1e-12)
+    assert found["curvature_coefficient"] == pytest.approx(d30**2 / d10 / d60, rel=1e-12)
+
+
+def test_summary_of_one_size():
+    found = grading_summary(single(2e-3))
+    assert {found[key] for key in found if key.startswith("D")} == {4e-3}
+    assert (found["uniformity_coefficient"], found["curvature_coefficient"]) == (1.0, 1.0)
+    assert found["mean_radius_3_m3"] == pytest.approx(8e-9, rel=1e-15)
 
 
 def test_grading_table_holds_target_and_realised_curves():
@@ -253,19 +270,29 @@ def test_every_grain_of_a_seed_is_in_the_last_row_of_the_grading_table(grading):
     assert table["percent_finer_by_number_target"][-1] == 100.0
 
 
-# --- by name -------------------------------------------------------------------------------------
+def test_grading_table_covers_the_ultimate_grading_as_well():
+    ultimate = fractal(0.5, 2.0, 2.5)
+    table = grading_table(uniform(1.0, 3.0), [[2.0]], ultimate, points=5)
+    assert_allclose(table["diameter_m"][[0, -1]], [1.0, 6.0], rtol=1e-15)
+    radius = table["diameter_m"] / 2
+    for by, cdf in (("mass", ultimate.mass_cdf), ("number", ultimate.number_cdf)):
+        assert_array_equal(table[f"percent_finer_by_{by}_ultimate"], 100 * cdf(radius))
+    without = grading_table(uniform(1.0, 3.0), [[2.0]])
+    assert not any("ultimate" in column for column in without)
 
 
-def test_forms_are_found_by_name():
-    radius = np.linspace(1.0, 4.0, 7)
-    found = from_parameters("fractal", radius_min=1.0, radius_max=4.0, alpha=2.5)
-    assert_array_equal(found.pdf(radius), fractal(1.0, 4.0, 2.5).pdf(radius))
-    found = from_parameters("uniform", radius_min=1.0, radius_max=4.0)
-    assert_array_equal(found.pdf(radius), uniform(1.0, 4.0).pdf(radius))
+def test_grading_table_of_one_size_has_its_step_in_the_middle():
+    table = grading_table(single(2.0), [[2.0, 2.0]])
+    assert_allclose(table["diameter_m"][[0, -1]], [3.6, 4.4], rtol=1e-14)
+    for name in ("mass_target", "mass_realised", "number_target", "number_realised"):
+        finer = table[f"percent_finer_by_{name}"]
+        assert_array_equal(finer, np.where(table["diameter_m"] >= 4.0, 100.0, 0.0))
+    assert np.isnan(table["density_target_per_m"]).all()
 
 
-def test_unknown_form_or_parameter_is_refused():
-    with pytest.raises(KeyError, match="normal"):
-        from_parameters("normal", radius_min=1.0, radius_max=4.0)
-    with pytest.raises(TypeError, match="alpha"):
-        from_parameters("uniform", radius_min=1.0, radius_max=4.0, alpha=2.5)
+def test_grading_table_of_a_mixture_with_a_single_size_has_no_density():
+    grading = mixture([single(1.0), uniform(1.0, 3.0)], [1.0, 1.0], "mass")
+    table = grading_table(grading, [[1.0, 2.0]])
+    assert np.isnan(table["density_target_per_m"]).all()
+    assert table["percent_finer_by_mass_target"][0] == 0.0
+    assert table["percent_finer_by_mass_target"][-1] == 100.0

@@ -15,7 +15,9 @@ from numpy.testing import assert_array_equal
 from pandas.testing import assert_frame_equal
 
 from branchcrush import __version__
+from branchcrush.errors import FitError
 from branchcrush.tables import (
+    no_data,
     provenance,
     read_json,
     read_packing,
@@ -165,6 +167,18 @@ def test_every_file_says_where_it_came_from(tmp_path, name):
         with np.load(path) as file:
             found = json.loads(str(file["meta"]))
     assert {key: found[key] for key in ORIGIN} == ORIGIN
+
+
+# --- no data -------------------------------------------------------------------------------------
+
+
+def test_result_without_data_is_read_as_its_reason_alone(tmp_path):
+    table, result = no_data(FitError("no packing carries load, in none of 2 seeds"))
+    write_table(tmp_path / "table.csv", table, ORIGIN)
+    write_json(tmp_path / "fit.json", result, ORIGIN)
+    reason = "no packing carries load, in none of 2 seeds"
+    assert read_table(tmp_path / "table.csv").to_dict("records") == [{"reason": reason}]
+    assert read_json(tmp_path / "fit.json") == {"reason": reason, "provenance": ORIGIN}
 
 
 # --- bytes ---------------------------------------------------------------------------------------

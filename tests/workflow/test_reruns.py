@@ -7,7 +7,8 @@ import pytest
 FIGURES = {"figures", "report"}
 MODEL = {"thermodynamics", "comparison"} | FIGURES
 SPLIT = {"energy_split"} | MODEL
-LOADING = {"compression", "branch_lengths"} | SPLIT
+BINS = {"branch_lengths", "convergence", "verdict"} | SPLIT
+LOADING = {"compression", "certificate"} | BINS
 PACKING = {"packing", "grading"} | LOADING
 
 
@@ -29,9 +30,10 @@ def test_a_second_run_does_nothing(study):
         ("dpi: 100", "dpi: 120", FIGURES),
         ("figures:", "thermodynamics: {critical_energy: 3.0e5}\nfigures:", MODEL),
         ("figures:", "energy_split: {confidence: 0.9}\nfigures:", SPLIT),
-        ("figures:", "energy_split: {bins: 15}\nfigures:", SPLIT | {"branch_lengths"}),
-        ("states: 12", "states: 8", LOADING),
-        ("    grains", "    contact: {normal_stiffness: 2.0e6}\n    grains", LOADING),
+        ("figures:", "energy_split: {bins: 15}\nfigures:", BINS),
+        # How well grains stand for a grading is judged at the end of the loading.
+        ("states: 12", "states: 8", LOADING | {"grading"}),
+        ("    grains", "    contact: {law: linear, normal_stiffness: 2.0e6}\n    grains", LOADING),
         ("grains: 60", "grains: 50", PACKING),
     ],
 )

@@ -1,4 +1,4 @@
-"""The tiny study from end to end: every file that others rely on, and what it holds."""
+"""Tiny studies from end to end: every file that others rely on, and what it holds."""
 
 import json
 import re
@@ -20,26 +20,46 @@ FIGURES = (
     "fig7_branch_lengths",
     "exponent_path",
     "loading_path",
+    "certificate",
     "crushing_model",
 )
 PATH_COLUMNS = [
     "state",
+    "leg",
+    "stopped",
     "linear_strain",
     "volumetric_strain",
     "solid_fraction",
     "void_ratio",
     "volume_m3",
     "mean_stress_Pa",
+    "boundary_stress_Pa",
     "elastic_energy_J",
     "work_J",
     "dissipated_J",
     "coordination_number",
     "mechanical_coordination_number",
     "rattler_fraction",
+    "carries_load",
     "unbalanced_force_ratio",
     "inertial_number",
+    "median_overlap_ratio",
+    "overlap_ratio_95",
     "max_overlap_ratio",
+    "contact_law_error",
     "escaped",
+    "lost",
+    "force_evaluations",
+]
+STEP_COLUMNS = [
+    "step",
+    "solid_fraction",
+    "volume_m3",
+    "mean_stress_Pa",
+    "work_J",
+    "unbalanced_force_ratio",
+    "contacts",
+    "force_evaluations",
 ]
 CONTACT_COLUMNS = [
     "state",
@@ -68,6 +88,7 @@ def test_every_seed_has_its_packing_path_contacts_and_dumps(sample, seed):
         assert packing["box"].shape == (3,)
         assert json.loads(str(packing["meta"]))["seed"] == seed
     assert set(PATH_COLUMNS) <= set(read_table(folder / "path.csv"))
+    assert set(STEP_COLUMNS) <= set(read_table(folder / "steps.csv"))
     assert set(CONTACT_COLUMNS) <= set(read_table(folder / "contacts.parquet"))
     for name in ("particles", "pairs"):
         assert (folder / f"{name}.dump.gz").stat().st_size > 0
@@ -81,7 +102,9 @@ def test_the_path_runs_from_the_loose_packing_to_the_full_reduction(sample, seed
     assert path["linear_strain"].iloc[-1] == pytest.approx(0.4, rel=1e-12)
     assert not path["carries_load"].iloc[1]
     assert path["carries_load"].iloc[-1]
-    assert (path["unbalanced_force_ratio"] <= 1e-6).all()
+    assert (path["leg"] == "loading").all()
+    assert path["stopped"].isna().all()
+    assert (path["unbalanced_force_ratio"] <= 1e-7).all()
     assert (path["dissipated_J"] >= -1e-12 * path["work_J"]).all()
 
 
@@ -98,6 +121,73 @@ def test_contacts_and_path_tell_the_same_energy_and_coordination(sample):
     assert path["coordination_number"][last] == pytest.approx(2 * count / 60, rel=1e-12)
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_steps_end_where_the_path_ends(sample, seed):
+    steps, path = (read_table(sample / f"seed_{seed}" / f"{n}.csv") for n in ("steps", "path"))
+    last, end = steps.iloc[-1], path.iloc[-1]
+    for column in ("solid_fraction", "volume_m3", "mean_stress_Pa", "work_J"):
+        assert last[column] == pytest.approx(end[column], rel=1e-6), column
+    assert last["force_evaluations"] == end["force_evaluations"]
+    assert (np.diff(steps["solid_fraction"]) > 0).all()
+
+
+def test_every_state_of_every_seed_is_judged(sample):
+    states = read_table(sample / "certificate.csv")
+    assert states.groupby("seed").size().to_dict() == {3: 14, 5: 14}
+    loaded = states[states["carries_load"]]
+    assert len(loaded) > 10
+    assert loaded["certified"].all()
+    assert (states.loc[~states["carries_load"], "verdict"] == "no load").all()
+    verdict = read_json(sample / "certificate.json")
+    assert (verdict["seeds"], verdict["seeds_certified"]) == (2, 2)
+    assert (verdict["states"], verdict["states_certified"]) == (28, len(loaded))
+    for name, limit in verdict["limits"].items():
+        assert verdict["worst"][name] == pytest.approx(loaded[name].max())
+        assert verdict["worst"][name] <= limit
+    # So few grains stand for no grading, and grains pressed so far together for no small overlap.
+    assert verdict["verdict"] in ("flagged", "not certified")
+    assert "too few for this grading" in " ".join(verdict["flags"])
+    assert "overlaps at the end" in " ".join(verdict["flags"])
+    assert all(reason.startswith("not converged") for reason in verdict["reasons"])
+
+
+def test_every_packing_jams_after_its_last_loose_state_and_about_its_first_loaded(sample):
+    jamming = read_table(sample / "jamming.csv").set_index("seed")
+    assert jamming.index.tolist() == list(SEEDS)
+    for seed, phi in jamming["jamming_solid_fraction_loading"].items():
+        path = read_table(sample / f"seed_{seed}" / "path.csv")
+        loose, loaded = (path.loc[path["carries_load"] == kind] for kind in (False, True))
+        assert phi >= loose["solid_fraction"].max()
+        # It may carry load, rearrange and be loose once more between two states.
+        assert phi == pytest.approx(loaded["solid_fraction"].min(), abs=0.02)
+    assert jamming["jamming_solid_fraction_unloading"].isna().all()
+
+
+def test_the_first_seed_is_run_again_with_twice_the_steps_from_the_same_packing(sample):
+    table = read_table(sample / "convergence.csv").set_index("quantity")
+    again = sample.with_name("tiny-refined") / "seed_3"
+    assert (table["seeds"] == 1).all()
+    once, twice = (read_table(folder / "path.csv") for folder in (sample / "seed_3", again))
+    assert table.loc["mean_stress_Pa", "value"] == once["mean_stress_Pa"].iloc[-1]
+    refined = twice["mean_stress_Pa"].iloc[-1]
+    assert table.loc["mean_stress_Pa", "value_at_twice_the_steps"] == refined
+    assert table.loc["solid_fraction", "difference"] == pytest.approx(0, abs=1e-12)
+    steps = [len(read_table(folder / "steps.csv")) - 1 for folder in (sample / "seed_3", again)]
+    # Between two states there are whole steps.
+    assert 1.5 * steps[0] < steps[1] <= 2 * steps[0]
+    assert not (again / "packing.npz").exists()
+
+
+def test_the_grading_is_judged_before_and_after_it_is_drawn(sample):
+    report = read_json(sample / "grading.json")
+    assert report["target"]["D_max_m"] == pytest.approx(2e-3)
+    assert report["realised"]["D_max_m"] < 2e-3
+    standing = report["representativity"]
+    assert standing["verdict"] == "refuse"
+    assert standing["warnings"] == [standing["message"]]
+    assert standing["largest_gap_percent_mean"] <= standing["largest_gap_percent_max"]
+
+
 def test_the_energy_split_counts_every_branch_of_every_seed(sample):
     table, fit = read_table(sample / "energy_split.csv"), read_json(sample / "energy_split.json")
     contacts = [read_table(sample / f"seed_{seed}" / "contacts.parquet") for seed in SEEDS]
@@ -108,6 +198,10 @@ def test_the_energy_split_counts_every_branch_of_every_seed(sample):
     assert fit["seeds"] == 2
     assert fit["exponent_low"] < fit["exponent"] < fit["exponent_high"]
     assert {"confidence", "solid_fraction", "cubic_r_squared", "predictors"} <= set(fit)
+    along = read_table(sample / "energy_split_path.csv")
+    assert along["exponent"].iloc[-1] == pytest.approx(fit["exponent"], rel=1e-12)
+    above = along["solid_fraction"] - along["solid_fraction_above_jamming"]
+    assert np.allclose(above, fit["jamming_solid_fraction"], rtol=1e-12)
 
 
 def test_branch_lengths_integrate_to_one_and_eqs_2_and_3_hold(sample):
@@ -162,7 +256,8 @@ def test_the_summary_names_exponent_interval_and_figures(finished):
     text = summary(finished.folder / "results")
     row = read_table(finished.folder / "results" / "comparison.csv").iloc[0]
     low, high = row["exponent_low"], row["exponent_high"]
-    assert f"tiny: n = {row['exponent']:.2f} ({low:.2f} to {high:.2f})" in text
+    exponent = f"n = {row['exponent']:.2f} ({low:.2f} to {high:.2f})"
+    assert f"tiny: {row['verdict']}, {exponent}" in text
     assert "report.html" in text
     assert "figures" in text
 
@@ -173,3 +268,112 @@ def test_every_table_names_what_made_it(finished):
         assert origin["branchcrush"], table
     for fit in (finished.folder / "results").rglob("*.json"):
         assert read_json(fit)["provenance"]["config"], fit
+
+
+# --- samples that give no data -------------------------------------------------------------------
+
+NO_DATA = """\
+samples:
+  alike:
+    grading: {form: single, size: diameter, unit: mm, value: 1}
+    grains: 40
+    allow_unrepresentative: true
+    boundary: periodic
+    contact: {law: hertz, young_modulus: 7.0e+10, poisson_ratio: 0.2}
+    loading:
+      mean_stress: {from: 1.0e+6, to: 1.0e+7, states: 2}
+      approach_solid_fraction: 0.5
+      unloading: true
+      quality: draft
+    seeds: 1
+    refined_seeds: 0
+  loose:
+    grading: {form: uniform, basis: mass, size: radius, unit: mm, min: 0.2, max: 1}
+    grains: 40
+    allow_unrepresentative: true
+    boundary: periodic
+    loading: {solid_fraction: 0.5, approach_solid_fraction: 0.4, states: 2, unloading: true,
+      quality: draft}
+    seeds: 1
+    refined_seeds: 0
+figures: {dpi: 60}
+"""
+ONE_LENGTH = "a power law needs finite energy at two or more branch lengths"
+NO_LOAD = (
+    "no packing is certified at the end of its loading: 0 of 1 carry load there, at a solid "
+    "fraction of 0.5000"
+)
+
+
+@pytest.fixture(scope="module")
+def no_data(finished, tmp_path_factory):
+    """Grains of one length of branch, and grains that never carry load: run to the end as well."""
+    study = type(finished)(tmp_path_factory.mktemp("no_data"))
+    study.configure(NO_DATA)
+    run = study.snakemake()
+    assert run.returncode == 0, run.stdout + run.stderr
+    return study.folder / "results"
+
+
+def test_a_stress_path_goes_to_every_stress_and_back(no_data):
+    path = read_table(no_data / "alike/seed_1/path.csv")
+    assert path["leg"].tolist() == ["loading"] * 4 + ["unloading"]
+    assert path["mean_stress_Pa"].iloc[2:].tolist() == pytest.approx([1e6, 1e7, 1e6], rel=0.01)
+    states = read_table(no_data / "alike/certificate.csv")
+    assert states["certified"].tolist() == [False, False, True, True, True]
+    jamming = read_table(no_data / "alike/jamming.csv").iloc[0]
+    way_in, way_back = jamming.filter(like="jamming_solid_fraction")
+    assert 0.5 < way_in < path["solid_fraction"][2]
+    assert way_back == pytest.approx(way_in, abs=0.01)
+    unloading = read_json(no_data / "alike/certificate.json")["unloading"]
+    assert 0 < unloading["work_returned_share"] < unloading["energy_returned_share"] <= 1 + 1e-6
+
+
+def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
+    table = read_table(no_data / "comparison.csv").set_index("sample")
+    assert table["reason"].to_dict() == {"alike": ONE_LENGTH, "loose": NO_LOAD}
+    assert table["verdict"].to_dict() == {"alike": "flagged", "loose": "not certified"}
+    assert table[["exponent", "theta"]].isna().all(axis=None)
+    assert table["seeds_certified"].to_dict() == {"alike": 1, "loose": 0}
+    for name, text in (("alike", ONE_LENGTH), ("loose", NO_LOAD)):
+        for kind in ("energy_split", "thermodynamics"):
+            assert read_json(no_data / name / f"{kind}.json")["reason"] == text
+            assert read_table(no_data / name / f"{kind}.csv")["reason"].tolist() == [text]
+    # Grains of one size still have branches.
+    assert read_table(no_data / "alike/branch_lengths.csv")["branches"].sum() > 40
+    assert read_json(no_data / "loose/branch_lengths.json")["reason"] == NO_LOAD
+    assert summary(no_data).splitlines()[:2] == [
+        f"alike: flagged, no exponent: {ONE_LENGTH}",
+        f"loose: not certified, no exponent: {NO_LOAD}",
+    ]
+
+
+def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
+    page = (no_data / "report.html").read_text(encoding="utf-8")
+    for text in (ONE_LENGTH, NO_LOAD):
+        assert f"No exponent: {text}." in page
+        assert f"No curves: {text}." in page
+    assert "1 of 1 packings carry no load at the end of their loading" in page
+    # Grading, packing and path of both; certificate and branches of the grains of one size.
+    assert page.count("data:image/png;base64,") == 8
+    assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
+    for name in ("alike", "loose"):
+        for figure in FIGURES:
+            pixels = image.imread(no_data / "figures" / name / f"{figure}.png")[..., :3]
+            assert (pixels.min(axis=-1) < 0.9).any(), (name, figure)
+
+
+# --- preview -------------------------------------------------------------------------------------
+
+
+def test_a_preview_tells_what_the_study_will_be_each_time_it_is_asked(study):
+    for _ in range(2):
+        run = study.snakemake("preview")
+        assert run.returncode == 0, run.stdout + run.stderr
+        text = (study.folder / "results/preview.txt").read_text(encoding="utf-8")
+        assert text in run.stdout
+        for part in ("tiny\n", "60, seeds 2", "force evaluations", "too few for this grading"):
+            assert part in text
+        assert (study.folder / "results/figures/tiny/preview.png").stat().st_size > 0
+        (study.folder / "results/preview.txt").unlink()
+    assert not (study.folder / "results/tiny").exists()

@@ -6,6 +6,8 @@ rule branch_lengths:
         packings=of_all_seeds("packing.npz"),
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
+        certificate="results/{sample}/certificate.csv",
+        data=data_files,
         code=code("branch_lengths"),
     output:
         table="results/{sample}/branch_lengths.csv",

@@ -1,11 +1,16 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
-from branchcrush.config import REFINED, refined
+from branchcrush.config import REFINED
+from branchcrush.config_gradings import grading_data_files
 from branchcrush.source_files import source_files
 
-SAMPLES = dict(SETTINGS.samples)
-# No result of `all`: only `convergence` asks for them.
-REFINED_SAMPLES = {name + REFINED: refined(sample) for name, sample in SAMPLES.items()}
+SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}
+# The first seeds again with twice the strain steps, for the certificate's convergence.
+REFINED_SAMPLES = {
+    name + REFINED: sample.settings(refinement=2)
+    for name, sample in SETTINGS.samples.items()
+    if sample.refined_seeds
+}
 
 
 wildcard_constraints:
@@ -19,14 +24,32 @@ def sample_of(wildcards):
 
 def section(*keys):
     """Return a params function for some keys of the sample, as plain values."""
-    return lambda wildcards: sample_of(wildcards).model_dump(include=set(keys))
+    return lambda wildcards: {key: sample_of(wildcards)[key] for key in keys}
+
+
+def data_files(wildcards):
+    """Return the files that the sample's grading is read from."""
+    return grading_data_files(sample_of(wildcards)["grading"])
+
+
+def of_seeds(file, of, seeds):
+    return [f"results/{of}/seed_{seed}/{file}" for seed in seeds]
 
 
 def of_all_seeds(file):
     """Return an input function for a file of every seed of the sample."""
-    return lambda wildcards: [
-        f"results/{wildcards.sample}/seed_{seed}/{file}" for seed in sample_of(wildcards).seeds
-    ]
+    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"])
+
+
+def of_refined_seeds(file, refined):
+    """Return an input function for a file of the seeds run twice, in one or the other run."""
+
+    def files(wildcards):
+        name = wildcards.sample + REFINED
+        seeds = REFINED_SAMPLES[name]["seeds"] if name in REFINED_SAMPLES else []
+        return of_seeds(file, name if refined else wildcards.sample, seeds)
+
+    return files
 
 
 def code(script):

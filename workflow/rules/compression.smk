@@ -3,23 +3,36 @@
 
 rule compression:
     input:
-        packing="results/{sample}/seed_{seed}/packing.npz",
-        inputs=expand(
-            "lammps_inputs/{file}",
-            file=[
+        # The same packing for the run with twice the strain steps.
+        packing=lambda wildcards: "results/{}/seed_{}/packing.npz".format(
+            wildcards.sample.removesuffix(REFINED), wildcards.seed
+        ),
+        inputs=[
+            f"{workflow.basedir}/lammps_inputs/{file}"
+            for file in (
                 "in.compress",
+                "mod.cell",
                 "mod.contact",
-                "mod.walls",
-                "mod.periodic",
+                "mod.edge",
+                "mod.hertz",
+                "mod.linear",
+                "mod.mass",
                 "mod.output",
-                "mod.strain",
+                "mod.periodic",
                 "mod.relax",
                 "mod.state",
-            ],
-        ),
+                "mod.step",
+                "mod.strain",
+                "mod.stress",
+                "mod.target",
+                "mod.undo",
+                "mod.walls",
+            )
+        ],
         code=code("compression"),
     output:
         path="results/{sample}/seed_{seed}/path.csv",
+        steps="results/{sample}/seed_{seed}/steps.csv",
         contacts="results/{sample}/seed_{seed}/contacts.parquet",
         walls="results/{sample}/seed_{seed}/wall_contacts.parquet",
         particles="results/{sample}/seed_{seed}/particles.dump.gz",
@@ -31,6 +44,6 @@ rule compression:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("boundary", "contact", "loading"),
+        sample=section("boundary", "contact", "initial_solid_fraction", "loading", "strain_step"),
     script:
         "../scripts/compression.py"

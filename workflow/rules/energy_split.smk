@@ -5,6 +5,9 @@ rule energy_split:
     input:
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
+        certificate="results/{sample}/certificate.csv",
+        jamming="results/{sample}/jamming.csv",
+        data=data_files,
         code=code("energy_split"),
     output:
         table="results/{sample}/energy_split.csv",

@@ -3,6 +3,7 @@
 
 rule packing:
     input:
+        data=data_files,
         code=code("packing"),
     output:
         packing="results/{sample}/seed_{seed}/packing.npz",
@@ -14,7 +15,7 @@ rule packing:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("grading", "grains", "boundary", "initial_solid_fraction"),
+        sample=section("grading", "sampling", "grains", "boundary", "initial_solid_fraction"),
     script:
         "../scripts/packing.py"
 
@@ -22,9 +23,11 @@ rule packing:
 rule grading:
     input:
         packings=of_all_seeds("packing.npz"),
+        data=data_files,
         code=code("grading"),
     output:
-        "results/{sample}/grading.csv",
+        table="results/{sample}/grading.csv",
+        summary="results/{sample}/grading.json",
     log:
         "logs/{sample}/grading.log",
     benchmark:
@@ -32,6 +35,14 @@ rule grading:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("grading"),
+        sample=section(
+            "grading",
+            "sampling",
+            "grains",
+            "loading",
+            "initial_solid_fraction",
+            "allow_unrepresentative",
+        ),
+        ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
     script:
         "../scripts/grading.py"

@@ -8,6 +8,7 @@ FIGURES = [
     "fig7_branch_lengths",
     "exponent_path",
     "loading_path",
+    "certificate",
     "crushing_model",
 ]
 
@@ -22,6 +23,10 @@ rule figures:
         statistics="results/{sample}/branch_lengths.json",
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
+        states="results/{sample}/certificate.csv",
+        certificate="results/{sample}/certificate.json",
+        jamming="results/{sample}/jamming.csv",
+        data=data_files,
         paths=of_all_seeds("path.csv"),
         packings=of_all_seeds("packing.npz"),
         particles=of_all_seeds("particles.dump.gz"),
@@ -35,7 +40,7 @@ rule figures:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("grading"),
+        sample=section("grading", "contact"),
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/figures.py"
@@ -45,6 +50,7 @@ rule comparison:
     input:
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
+        certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         code=code("comparison"),
     output:
         "results/comparison.csv",
@@ -62,16 +68,13 @@ rule comparison:
 
 rule report:
     input:
-        template="workflow/report/report.html.jinja",
+        template=f"{workflow.basedir}/workflow/report/report.html.jinja",
         comparison="results/comparison.csv",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
-        paths=[
-            f"results/{name}/seed_{seed}/path.csv"
-            for name, sample in SAMPLES.items()
-            for seed in sample.seeds
-        ],
+        certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
+        gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
         figures=expand("results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES),
         code=code("report"),
     output:
@@ -83,6 +86,6 @@ rule report:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        samples={name: sample.model_dump() for name, sample in SAMPLES.items()},
+        samples=SAMPLES,
     script:
         "../scripts/report.py"

@@ -5,6 +5,8 @@ rule thermodynamics:
     input:
         paths=of_all_seeds("path.csv"),
         fit="results/{sample}/energy_split.json",
+        certificate="results/{sample}/certificate.csv",
+        data=data_files,
         code=code("thermodynamics"),
     output:
         curves="results/{sample}/thermodynamics.csv",

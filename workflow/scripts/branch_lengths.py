@@ -1,21 +1,40 @@
-"""Measure the distribution of branch lengths at the end of the loading path."""
+"""Measure the distribution of branch lengths at the end of the loading."""
 
-from branchcrush import gradings
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
 from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import final_branches
+from branchcrush.ensemble import certified_loading, final_branches
+from branchcrush.errors import FitError
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_packing, read_table, write_json, write_table
+from branchcrush.tables import (
+    no_data,
+    provenance,
+    read_packing,
+    read_table,
+    write_json,
+    write_table,
+)
 
 with job(snakemake.log[0]):
-    grading = gradings.from_parameters(**snakemake.params.sample["grading"])
-    radii = [read_packing(path)[1] for path in snakemake.input.packings]
-    ends = [read_table(path).iloc[-1] for path in snakemake.input.paths]
-    lengths = final_branches([read_table(path) for path in snakemake.input.contacts])
-    edges = bin_edges(*grading.support(), snakemake.params.bins)
-    origin = provenance(sample=snakemake.wildcards.sample, config=snakemake.params.sample)
-    write_table(snakemake.output.table, branch_length_table(lengths, grading, edges), origin)
-    volumes = [end["volume_m3"] for end in ends]
-    kappa = [end["coordination_number"] for end in ends]
-    statistics = branch_statistics(radii, lengths, volumes, kappa, grading)
+    files, sample = snakemake.input, snakemake.params.sample
+    grading = grading_of(sample["grading"])
+    paths, contacts = (
+        [read_table(path) for path in kind] for kind in (files.paths, files.contacts)
+    )
+    try:
+        used, paths, contacts = certified_loading(read_table(files.certificate), paths, contacts)
+        lengths = final_branches(contacts)
+        edges = bin_edges(*grading.support(), snakemake.params.bins)
+        table = branch_length_table(lengths, grading, edges)
+        statistics = branch_statistics(
+            [read_packing(files.packings[number])[1] for number in used],
+            lengths,
+            [path["volume_m3"].iloc[-1] for path in paths],
+            [path["coordination_number"].iloc[-1] for path in paths],
+            grading,
+        )
+    except FitError as error:
+        table, statistics = no_data(error)
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_table(snakemake.output.table, table, origin)
     write_json(snakemake.output.statistics, statistics, origin)

@@ -5,8 +5,9 @@ from branchcrush.report import comparison_row
 from branchcrush.tables import provenance, read_json, write_table
 
 with job(snakemake.log[0]):
-    files = zip(
-        snakemake.params.samples, snakemake.input.fits, snakemake.input.summaries, strict=True
-    )
-    rows = [comparison_row(name, read_json(fit), read_json(model)) for name, fit, model in files]
+    kinds = (snakemake.input.fits, snakemake.input.summaries, snakemake.input.certificates)
+    rows = [
+        comparison_row(name, *(read_json(path) for path in files))
+        for name, *files in zip(snakemake.params.samples, *kinds, strict=True)
+    ]
     write_table(snakemake.output[0], rows, provenance(samples=snakemake.params.samples))

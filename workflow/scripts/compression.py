@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from branchcrush.contact_law import contact_law
 from branchcrush.jobs import job
 from branchcrush.simulation import compress, compression_variables
 from branchcrush.tables import provenance, read_packing, write_table
@@ -10,9 +11,14 @@ with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)
     positions, radii, edge = read_packing(snakemake.input.packing)
     variables = compression_variables(
-        radii, edge, boundary=sample["boundary"], **sample["contact"], **sample["loading"]
+        radii,
+        sample["initial_solid_fraction"],
+        boundary=sample["boundary"],
+        law=contact_law(**sample["contact"]),
+        loading=sample["loading"],
+        strain_step=sample["strain_step"],
     )
-    path, contacts, walls = compress(
+    result = compress(
         positions,
         radii,
         edge,
@@ -22,6 +28,5 @@ with job(snakemake.log[0]):
         log=snakemake.log[0],
     )
     origin = provenance(sample=snakemake.wildcards.sample, seed=seed, config=sample)
-    write_table(snakemake.output.contacts, contacts, origin)
-    write_table(snakemake.output.walls, walls, origin)
-    write_table(snakemake.output.path, path, origin)
+    for name, table in result._asdict().items():
+        write_table(snakemake.output[name], table, origin)

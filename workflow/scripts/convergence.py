@@ -1,20 +1,19 @@
-"""Compare every sample with itself at twice the strain steps."""
+"""Compare the first seeds with themselves at twice the strain steps."""
 
-from branchcrush.config import REFINED
+from branchcrush.convergence import convergence_table
+from branchcrush.energy_split import bin_edges
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.report import convergence_rows
-from branchcrush.tables import provenance, read_json, read_table, write_table
+from branchcrush.tables import provenance, read_table, write_table
 
 with job(snakemake.log[0]):
-    samples, files = snakemake.params.samples, snakemake.input
-    paths = {}
-    for path in files.paths:
-        paths.setdefault(path.split("/")[1], []).append(read_table(path))
-    rows = []
-    for name, steps, fit, refined in zip(
-        samples, snakemake.params.steps, files.fits, files.refined, strict=True
-    ):
-        once = (read_json(fit), paths[name])
-        twice = (read_json(refined), paths[name + REFINED])
-        rows += convergence_rows(name, steps, once, twice)
-    write_table(snakemake.output[0], rows, provenance(samples=samples))
+    sample, files = snakemake.params.sample, snakemake.input
+    edges = bin_edges(*grading_of(sample["grading"]).support(), snakemake.params.bins)
+    certificates = [read_table(path) for path in files.certificates]
+    runs = [
+        [[read_table(path) for path in files[f"{run}{kind}"]] for kind in ("paths", "contacts")]
+        for run in ("", "refined_")
+    ]
+    table = convergence_table(certificates, *runs, edges)
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_table(snakemake.output[0], table, origin)

@@ -1,21 +1,27 @@
-"""Fit the energy-split function at the end of the path, and its exponent along it."""
+"""Fit the energy-split function at the end of the loading, and its exponent along it."""
 
-from branchcrush import gradings
 from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import exponents_along_path, final_energy_split
+from branchcrush.ensemble import certified_loading, exponents_along_path, final_energy_split
+from branchcrush.errors import FitError
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_table, write_json, write_table
+from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
 
 with job(snakemake.log[0]):
+    files, sample = snakemake.input, snakemake.params.sample
     settings = dict(snakemake.params.energy_split)
-    sample = snakemake.params.sample
-    edges = bin_edges(
-        *gradings.from_parameters(**sample["grading"]).support(), settings.pop("bins")
+    edges = bin_edges(*grading_of(sample["grading"]).support(), settings.pop("bins"))
+    paths, contacts = (
+        [read_table(path) for path in kind] for kind in (files.paths, files.contacts)
     )
-    paths = [read_table(path) for path in snakemake.input.paths]
-    contacts = [read_table(path) for path in snakemake.input.contacts]
-    table, fit = final_energy_split(contacts, paths, edges, **settings)
-    along = exponents_along_path(contacts, paths, edges, **settings)
+    try:
+        used, paths, contacts = certified_loading(read_table(files.certificate), paths, contacts)
+        jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used].mean()
+        table, fit = final_energy_split(contacts, paths, edges, jamming, **settings)
+        along = exponents_along_path(contacts, paths, edges, jamming, **settings)
+    except FitError as error:
+        table, fit = no_data(error)
+        along = table
     origin = provenance(
         sample=snakemake.wildcards.sample,
         seeds=sample["seeds"],

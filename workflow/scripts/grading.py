@@ -1,12 +1,21 @@
-"""Write the target grading beside the one that the seeds realise."""
+"""Write the target grading beside what the seeds realise, and how well they stand for it."""
 
-from branchcrush import gradings
+from branchcrush.grading_files import grading_of
+from branchcrush.gradings import grading_table, ultimate_grading
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_packing, write_table
+from branchcrush.loading import loaded_solid_fraction
+from branchcrush.representativity import representativity, representativity_report
+from branchcrush.tables import provenance, read_packing, write_json, write_table
 
 with job(snakemake.log[0]):
-    grading = gradings.from_parameters(**snakemake.params.sample["grading"])
+    sample = snakemake.params.sample
+    grading = grading_of(sample["grading"])
     radii = [read_packing(path)[1] for path in snakemake.input.packings]
-    table = gradings.grading_table(grading, radii)
-    origin = provenance(sample=snakemake.wildcards.sample, config=snakemake.params.sample)
-    write_table(snakemake.output[0], table, origin)
+    ultimate = ultimate_grading(grading, snakemake.params.ultimate_alpha)
+    end = loaded_solid_fraction(sample["initial_solid_fraction"], sample["loading"])
+    report = representativity_report(
+        representativity(grading, sample["grains"], end), grading, radii
+    )
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_table(snakemake.output.table, grading_table(grading, radii, ultimate), origin)
+    write_json(snakemake.output.summary, report, origin)

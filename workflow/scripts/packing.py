@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from branchcrush import gradings
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
 from branchcrush.lammps_files import write_data_file
 from branchcrush.packing import cube_edge, random_packing
+from branchcrush.sampling import sampled_radii
 from branchcrush.tables import provenance, write_packing
 
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)
     rng = np.random.default_rng(seed)
-    grading = gradings.from_parameters(**sample["grading"])
-    radii = np.sort(grading.rvs(size=sample["grains"], random_state=rng))[::-1]
+    radii = sampled_radii(grading_of(sample["grading"]), sample["grains"], sample["sampling"], rng)
     edge = cube_edge(radii, sample["initial_solid_fraction"])
     periodic = sample["boundary"] == "periodic"
     positions = random_packing(radii, edge, periodic=periodic, rng=rng)

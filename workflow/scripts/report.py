@@ -4,7 +4,7 @@ from pathlib import Path
 
 from branchcrush.jobs import job
 from branchcrush.report import render_report
-from branchcrush.tables import read_json, read_table
+from branchcrush.tables import read_json, write_text
 
 with job(snakemake.log[0]):
     samples, files = snakemake.params.samples, snakemake.input
@@ -19,10 +19,11 @@ with job(snakemake.log[0]):
             "fit": read_json(of(name, files.fits)[0]),
             "model": read_json(of(name, files.summaries)[0]),
             "statistics": read_json(of(name, files.statistics)[0]),
-            "paths": [read_table(path) for path in of(name, files.paths)],
+            "certificate": read_json(of(name, files.certificates)[0]),
+            "grading": read_json(of(name, files.gradings)[0]),
             "figures": {Path(path).stem: path for path in of(name, files.figures)},
         }
         for name, settings in samples.items()
     ]
     html = render_report(Path(files.template).read_text(encoding="utf-8"), pages)
-    Path(snakemake.output[0]).write_text(html, encoding="utf-8")
+    write_text(snakemake.output[0], html)

@@ -1,24 +1,34 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
-from branchcrush import gradings
 from branchcrush.crushing_curves import crushing_curves
 from branchcrush.energy_split import Interval
+from branchcrush.ensemble import certified_loading, on_the_way_in
+from branchcrush.errors import AdmissibilityError, FitError
+from branchcrush.grading_files import grading_of
+from branchcrush.gradings import ultimate_grading
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_json, read_table, write_json, write_table
+from branchcrush.tables import no_data, provenance, read_json, read_table, write_json, write_table
 
 with job(snakemake.log[0]):
-    model = snakemake.params.thermodynamics
-    initial = gradings.from_parameters(**snakemake.params.sample["grading"])
-    fit = read_json(snakemake.input.fit)
-    curves, summary = crushing_curves(
-        [read_table(path) for path in snakemake.input.paths],
-        Interval(fit["exponent"], fit["exponent_low"], fit["exponent_high"]),
-        initial,
-        gradings.fractal(*initial.support(), model["ultimate_alpha"]),
-        fit["reference_length_m"],
-        model["critical_energy"],
-        model["hardening_exponent"],
-    )
+    files, model = snakemake.input, snakemake.params.thermodynamics
+    initial = grading_of(snakemake.params.sample["grading"])
+    fit = read_json(files.fit)
+    paths = [read_table(path) for path in files.paths]
+    try:
+        if "reason" in fit:
+            raise FitError(fit["reason"])
+        used, _, _ = certified_loading(read_table(files.certificate), paths, paths)
+        curves, summary = crushing_curves(
+            on_the_way_in(paths, used),
+            Interval(fit["exponent"], fit["exponent_low"], fit["exponent_high"]),
+            initial,
+            ultimate_grading(initial, model["ultimate_alpha"]),
+            fit["reference_length_m"],
+            model["critical_energy"],
+            model["hardening_exponent"],
+        )
+    except (FitError, AdmissibilityError) as error:
+        curves, summary = no_data(error)
     origin = provenance(sample=snakemake.wildcards.sample, config=model)
     write_table(snakemake.output.curves, curves, origin)
     write_json(snakemake.output.summary, summary, origin)

@@ -39,7 +39,7 @@ def plot_energy_split(table, fit, ax=None):
             lw=0,
         )
     ax.plot(line, line ** fit["exponent"], color=MODEL, label=f"$(l/l_r)^n$, n = {interval}")
-    ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
+    ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     _mark_thin(ax, x, table["f"], table["branches"], empty)
     ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
     # With few seeds the band would dwarf the data.
@@ -70,13 +70,14 @@ def plot_cubic(table, fit, ax=None):
         color=MODEL,
         label=f"f = {fit['cubic_slope']:.3f} $(l/l_r)^3$, $R^2$ = {fit['cubic_r_squared']:.4f}",
     )
-    ax.plot(x, table["f"], "o", color=MEASURED, label=f"{fit['seeds']} seeds, bin means")
+    ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     thin = table["branches"][table["branches"] < THIN]
     if len(thin):
         # Next to 0 they lie on top of each other, too close for a number each.
-        ax.plot([], [], " ", label=f"bins below {THIN} branches: {', '.join(map(str, thin))}")
+        counts = ", ".join(map(str, thin)) if len(thin) < 6 else f"{len(thin)} of them"
+        ax.plot([], [], " ", label=f"bins below {THIN} branches: {counts}")
     ax.set(xlabel=r"$(l/l_r)^3$ [-]", ylabel=r"energy split $f(l)$ [-]")
-    ax.set(xlim=(0, None), ylim=(0, None))
+    ax.set(xlim=(0, None), ylim=(0, 1.35 * table["f"].max()))
     ax.legend(loc="upper left")
     return ax
 
@@ -97,7 +98,11 @@ def plot_exponent_path(path, fit, ax=None):
     Axes
     """
     ax = axes(ax)
-    phi = path["solid_fraction"]
+    path = path[path["exponent"].notna()]
+    phi = path["solid_fraction_above_jamming"]
+    label = r"solid fraction above jamming $\phi - \phi_J$ [-]"
+    if phi.isna().any():
+        phi, label = path["solid_fraction"], r"solid fraction $\phi$ [-]"
     if path["exponent_low"].notna().all():
         ax.fill_between(
             phi,
@@ -110,11 +115,15 @@ def plot_exponent_path(path, fit, ax=None):
         )
     ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
     ax.axhline(3.0, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
-    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="exponent n [-]")
+    ax.set(xlabel=label, ylabel="exponent n [-]")
+    # With few seeds the band would dwarf the estimates.
+    low, high = min(3.0, path["exponent"].min()), max(3.0, path["exponent"].max())
+    floor, ceiling = ax.get_ylim()
+    ax.set_ylim(max(floor, low - 2.0), min(ceiling, high + 2.0))
     top = ax.twiny()
     top.set_xlim(ax.get_xlim())
     shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
-    top.set_xticks(phi.iloc[shown], [f"{v:.1f}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
+    top.set_xticks(phi.iloc[shown], [f"{v:.2g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
     top.set_xlabel("mean stress [MPa]")
     top.spines["top"].set_visible(True)
     ax.legend(loc="best")
@@ -138,5 +147,12 @@ def _mark_thin(ax, x, y, counts, empty):
         ax.plot([], [], " ", label=label)
 
 
+def _seeds(fit):
+    return f"{fit['seeds']} seed{'s' if fit['seeds'] > 1 else ''}, bin means"
+
+
 def _title(fit):
-    return rf"$\phi$ = {fit['solid_fraction']:.3f}, {fit['confidence']:.0%} interval"
+    title = rf"$\phi$ = {fit['solid_fraction']:.3f}"
+    if fit["exponent_low"] is None:
+        return title
+    return f"{title}, {fit['confidence']:.0%} interval"

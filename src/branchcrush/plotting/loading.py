@@ -18,6 +18,10 @@ def plot_mean_stress(path, ax=None):
     """
     ax = axes(ax)
     _each_seed(ax, path, path["mean_stress_Pa"] / 1e6)
+    if (path["leg"] == "unloading").any():
+        back = path[path["leg"] == "unloading"].groupby("state").mean(numeric_only=True)
+        stress = back["mean_stress_Pa"] / 1e6
+        ax.plot(back["solid_fraction"], stress, "s", color=OTHER, ms=3, label="unloading, mean")
     ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="mean stress [MPa]")
     ax.legend(loc="upper left")
     return ax
@@ -102,6 +106,7 @@ def plot_elastic_law(path, summary, ax=None):
     Axes
     """
     ax = axes(ax)
+    path = path[path["leg"] == "loading"]
     jamming = summary["jamming_solid_fraction"]
     strain = 1 - jamming / path["solid_fraction"]
     density = path["elastic_energy_J"] / path["volume_m3"] * jamming / path["solid_fraction"]

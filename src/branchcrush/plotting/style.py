@@ -1,5 +1,6 @@
 """How every figure looks, and how it is saved."""
 
+import textwrap
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -69,3 +70,11 @@ def interval_text(estimate, low, high):
     if low is None or low != low:
         return f"{estimate:.2f} (one seed: no interval)"
     return f"{estimate:.2f} ({low:.2f} to {high:.2f})"
+
+
+def reason(ax, text):
+    """Write on an Axes why there is nothing to draw, and return it."""
+    lines = textwrap.fill(f"no data: {text}", 48)
+    ax.text(0.5, 0.5, lines, ha="center", va="center", transform=ax.transAxes, fontsize=7)
+    ax.set_axis_off()
+    return ax

@@ -1,0 +1,143 @@
+"""What the sections of the configuration have in common: numbers that say what they allow."""
+
+import math
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo
+from pydantic_core import PydanticCustomError
+
+
+class Section(BaseModel):
+    """A section of the configuration: no keys but its own, and none changed once checked."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Number:
+    """Reads a number within bounds, also from text such as 1e6, which YAML takes for text.
+
+    Parameters
+    ----------
+    above, least, below, most : float, optional
+        Bounds; the value may be `least` and `most` itself.
+    whole : bool
+        Whether it must be an integer.
+    unit : str, optional
+        Of the value.
+    unit_of : str, optional
+        Key of the same section that tells the unit instead.
+    hint : str
+        What else to say when it is refused.
+
+    Examples
+    --------
+    >>> Number(least=2, most=5, whole=True).allowed
+    'must be a whole number from 2 to 5'
+    """
+
+    def __init__(
+        self,
+        above=None,
+        least=None,
+        below=None,
+        most=None,
+        whole=False,
+        unit="",
+        unit_of=None,
+        hint="",
+    ):
+        self.above, self.least, self.below, self.most = above, least, below, most
+        self.whole, self.unit, self.unit_of, self.hint = whole, unit, unit_of, hint
+
+    @property
+    def allowed(self):
+        """What may be given, in words."""
+        return self._in_words(self.unit)
+
+    def _in_words(self, unit):
+        words = "must be a whole number" if self.whole else "must be a number"
+        if self.least is not None:
+            words += f" from {_plain(self.least)}"
+            words += " up" if self.most is None else f" to {_plain(self.most)}"
+        else:
+            ends = [("above", self.above), ("below", self.below), ("at most", self.most)]
+            given = [f"{word} {_plain(end)}" for word, end in ends if end is not None]
+            words += " " + " and ".join(given)
+        return f"{words} {unit}".rstrip() + self.hint
+
+    def __call__(self, value, info: ValidationInfo):
+        """Return the number, or refuse it with all that is allowed."""
+        number = number_of(value)
+        if number is None or not self._within(number):
+            unit = info.data.get(self.unit_of, "") if self.unit_of else self.unit
+            comma = isinstance(value, str) and "," in value and not self.whole
+            hint = ", with a decimal point" if comma else ""
+            raise refusal(self._in_words(unit) + hint, unit=unit)
+        return int(number) if self.whole else float(number)
+
+    def _within(self, number):
+        return (
+            (self.above is None or number > self.above)
+            and (self.least is None or number >= self.least)
+            and (self.below is None or number < self.below)
+            and (self.most is None or number <= self.most)
+            and (not self.whole or number == int(number))
+        )
+
+
+def number_of(value):
+    """Return the finite number that a value of the YAML file is or spells, or None.
+
+    Examples
+    --------
+    >>> number_of("1e6"), number_of(True), number_of(float("nan"))
+    (1000000.0, None, None)
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        return None
+    try:
+        # A whole number is kept as one: beyond 2^53 a float is another.
+        number = value if isinstance(value, int) else float(value)
+        return number if math.isfinite(number) else None
+    except (ValueError, OverflowError):
+        return None
+
+
+def one_line(key):
+    r"""Return a key as text that stays on its line, whatever it holds.
+
+    Examples
+    --------
+    >>> one_line("two\nlines"), one_line(3)
+    ('two\\nlines', '3')
+    """
+    text = str(key)
+    return text if text.isprintable() else repr(text)[1:-1]
+
+
+def refusal(words, **details):
+    """Return the error of a validator that says what is allowed.
+
+    Parameters
+    ----------
+    words : str
+        What is allowed, or what is wrong.
+    **details
+        unit: of the value; key, value: below the key that is validated, the one to name and show;
+        of_section: True names the section of the key, and no value.
+    """
+    return PydanticCustomError("refusal", "{words}", {"words": words, **details})
+
+
+def _plain(number):
+    return f"{number:g}" if isinstance(number, float) else str(number)
+
+
+def number(kind=float, **bounds):
+    """Return the type of a key that holds a number: keywords as those of `Number`."""
+    return Annotated[kind, BeforeValidator(Number(whole=kind is int, **bounds))]
+
+
+_SHARE = " (a share: 0.4 is 40 %)"
+Positive = number(above=0)
+Fraction = number(above=0, below=1, hint=_SHARE)

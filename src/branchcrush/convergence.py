@@ -1,0 +1,86 @@
+"""Convergence: the same packings with twice the strain steps, and what that changes."""
+
+import numpy as np
+import pandas as pd
+
+from branchcrush.energy_split import binned_exponent
+from branchcrush.ensemble import certified_loading, split_sums
+from branchcrush.errors import FitError
+
+_QUANTITIES = (
+    "solid_fraction",
+    "mean_stress_Pa",
+    "elastic_energy_J",
+    "work_J",
+    "coordination_number",
+    "mechanical_coordination_number",
+    "force_evaluations",
+)
+_COLUMNS = (
+    "quantity",
+    "seeds",
+    "value",
+    "value_at_twice_the_steps",
+    "difference",
+    "standard_error_of_difference",
+)
+
+
+def convergence_table(certificates, once, twice, edges):
+    """Return the quantities at the end of the loading with the steps asked for and with twice.
+
+    Parameters
+    ----------
+    certificates : list of DataFrame
+        `certificate.csv` of both runs, or none when no seed was run twice.
+    once, twice : tuple of (list of DataFrame, list of DataFrame)
+        The path and the contacts tables of the seeds run twice.
+    edges : array_like, shape (n+1,)
+        Bin edges of the energy split [m].
+
+    Returns
+    -------
+    DataFrame
+        For each quantity both values, means over the seeds, their difference and its standard
+        error from the pairs of one seed; the exponent is that of all these seeds together. Empty
+        when no seed is certified in both runs.
+    """
+    try:
+        runs = [
+            certified_loading(certificate, *run)
+            for certificate, run in zip(certificates, (once, twice), strict=False)
+        ]
+    except FitError:
+        runs = []
+    both = sorted(set(runs[0][0]) & set(runs[1][0])) if runs else []
+    if not both:
+        return pd.DataFrame(columns=_COLUMNS)
+    ends, exponents, together = [], [], []
+    for used, paths, contacts in runs:
+        chosen = [used.index(number) for number in both]
+        ends.append([paths[number].iloc[-1] for number in chosen])
+        state = int(paths[0]["state"].iloc[-1])
+        sums = split_sums([contacts[number] for number in chosen], state, edges)
+        together.append(_exponent(sums))
+        exponents.append([_exponent(seed[None]) for seed in sums])
+    rows = [_row("exponent", together, np.array(exponents))]
+    for quantity in _QUANTITIES:
+        values = np.array([[float(end[quantity]) for end in run] for run in ends])
+        rows.append(_row(quantity, values.mean(axis=1), values))
+    return pd.DataFrame(rows)
+
+
+def _exponent(sums):
+    try:
+        return float(binned_exponent(sums, rng=np.random.default_rng(0))[0].exponent)
+    except FitError:
+        return np.nan
+
+
+def _row(quantity, values, seeds):
+    pairs = seeds[1] - seeds[0]
+    error = pairs.std(ddof=1) / np.sqrt(pairs.size) if pairs.size > 1 else np.nan
+    value, refined = (float(value) for value in values)
+    return dict(
+        zip(_COLUMNS, (quantity, pairs.size, value, refined, refined - value, error), strict=True)
+    )

@@ -1,0 +1,107 @@
+"""The jamming point: the solid fraction at which the stress of a loaded packing vanishes."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from branchcrush.errors import FitError
+
+# How far above the first loaded state the states of the fit reach, in solid fraction.
+_WINDOW = 0.04
+_FEWEST = 4
+
+
+class Jamming(NamedTuple):
+    """phi_J with its uncertainty (one standard deviation) and how many states gave it."""
+
+    solid_fraction: float
+    uncertainty: float
+    states: int
+
+
+def jamming_point(solid_fraction, mean_stress, contact_exponent, loaded):
+    r"""Return the jamming point of one packing, by extrapolating its stress to zero.
+
+    .. math:: P^{1/m} = a\,(\phi - \phi_J) + b\,(\phi - \phi_J)^2
+
+    m is the exponent of the contact force in the overlap: 1 for linear contacts, 3/2 for Hertz.
+    The fit takes the states up to 0.04 above the first that is loaded for good; phi_J is not below
+    the last state without load. The uncertainty holds the standard error, and half of what leaving
+    out the second term would change, and is no more than lies between the last state without load
+    and the first with.
+
+    Parameters
+    ----------
+    solid_fraction, mean_stress : array_like, shape (n,)
+        Along the loading, or along the unloading [-], [Pa].
+    contact_exponent : float
+        m [-].
+    loaded : array_like of bool, shape (n,)
+        Which of them carry load.
+
+    Returns
+    -------
+    Jamming
+
+    Raises
+    ------
+    FitError
+        When fewer than four states carry load, or their stress does not rise.
+
+    Examples
+    --------
+    >>> phi = np.array([0.60, 0.65, 0.66, 0.67, 0.68])
+    >>> point = jamming_point(phi, 1e6 * np.maximum(phi - 0.64, 0.0), 1.0, phi > 0.64)
+    >>> round(point.solid_fraction, 9), point.states
+    (0.64, 4)
+
+    References
+    ----------
+    O'Hern, Silbert, Liu and Nagel (2003), Phys. Rev. E 68, 011306.
+    """
+    order = np.argsort(solid_fraction)
+    phi, stress = (np.asarray(x, dtype=float)[order] for x in (solid_fraction, mean_stress))
+    loaded = np.asarray(loaded, dtype=bool)[order]
+    # A packing may carry load, rearrange and be loose again: it jams after it was last loose.
+    loose = phi[~loaded].max(initial=0.0)
+    above = phi > loose
+    phi, root = phi[above], stress[above] ** (1.0 / contact_exponent)
+    if phi.size < _FEWEST:
+        raise FitError(f"{phi.size} states carry load; {_FEWEST} are needed for a jamming point")
+    near = phi <= max(phi[0] + _WINDOW, phi[_FEWEST - 1])
+    first, phi, root = phi[0], phi[near], root[near]
+    lines = [_zero(phi, root, degree) for degree in ((1, 2) if phi.size > _FEWEST else (1,))]
+    lines = [line for line in lines if 0.0 < line[0] <= first]
+    if not lines:
+        raise FitError("the stress does not rise from zero along the path")
+    value, error = lines[-1]
+    spread = abs(lines[-1][0] - lines[0][0]) / 2.0
+    # Whatever the extrapolation says, it jams between where it was last loose and first loaded.
+    known, widest = max(value, loose), (first - loose if loose else np.inf)
+    uncertainty = min(np.hypot(error, spread + known - value), widest)
+    return Jamming(float(known), float(uncertainty), int(phi.size))
+
+
+def _zero(phi, root, degree):
+    """Return where a polynomial fitted to root(phi) vanishes next below the data, and its error."""
+    centre, scale = phi[0], root.max()
+    x, y = phi - centre, root / scale
+    powers = np.vander(x, degree + 1, increasing=True)
+    weights, *_ = np.linalg.lstsq(powers, y, rcond=None)
+    zeros = np.roots(weights[::-1])
+    zeros = zeros[np.isreal(zeros)].real
+    # The root that belongs to rising stress, nearest to the first loaded state.
+    slopes = np.polyval(np.polyder(weights[::-1]), zeros)
+    zeros = zeros[slopes > 0]
+    if not zeros.size:
+        return np.nan, np.nan
+    zero = zeros[np.argmin(np.abs(zeros))]
+    slope = np.polyval(np.polyder(weights[::-1]), zero)
+    spare = x.size - degree - 1
+    variance = np.sum((powers @ weights - y) ** 2) / max(spare, 1)
+    covariance = variance * np.linalg.pinv(powers.T @ powers)
+    at_zero = zero ** np.arange(degree + 1)
+    error = np.sqrt(at_zero @ covariance @ at_zero) / slope
+    # Few spare states tell little of their own scatter: Student's t makes up for it.
+    return zero + centre, float(error * stats.t.ppf(0.841344746, max(spare, 1)))

@@ -1,0 +1,135 @@
+"""The certificate: how far every saved state is from its limits, and where each packing jams."""
+
+import numpy as np
+
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
+
+_PHI = r"solid fraction $\phi$ [-]"
+_LOOSE = "no saved state carries load"
+
+
+def plot_rest(states, limits, ax=None):
+    """Draw what tells whether the states are at rest, each with its limit.
+
+    Parameters
+    ----------
+    states : DataFrame
+        `certificate.csv`.
+    limits : dict
+        Of `certificate.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    loaded = states[states["carries_load"]]
+    if not len(loaded):
+        return reason(ax, _LOOSE)
+    for column, label, color in (
+        ("unbalanced_force_ratio", "unbalanced force ratio", MEASURED),
+        ("inertial_number", "inertial number", OTHER),
+        ("stress_identity_error", "stress of branches against boundary", MODEL),
+    ):
+        shown = loaded[column].clip(lower=1e-16)
+        ax.semilogy(loaded["solid_fraction"], shown, ".", color=color, ms=3, label=label)
+        ax.axhline(limits[column], color=color, ls="--", lw=0.8)
+    ax.set(xlabel=_PHI, ylabel="[-], dashed: largest certified")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, 1e4 * high)
+    ax.legend(loc="upper left")
+    return ax
+
+
+def plot_overlaps(states, flag, ax=None):
+    """Draw the overlaps over the smaller radius, with the value from which they are flagged.
+
+    Parameters
+    ----------
+    states : DataFrame
+        `certificate.csv`.
+    flag : float
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    loaded = states[states["carries_load"]]
+    if not len(loaded):
+        return reason(ax, _LOOSE)
+    for column, label, color in (
+        ("max_overlap_ratio", "largest", FAINT),
+        ("overlap_ratio_95", "95 % of the contacts", MODEL),
+        ("median_overlap_ratio", "median", MEASURED),
+    ):
+        shown = 100 * loaded[column]
+        ax.semilogy(loaded["solid_fraction"], shown, ".", color=color, ms=3, label=label)
+    ax.axhline(100 * flag, color=MODEL, ls="--", lw=0.8, label=f"flagged from {flag:.0%}")
+    ax.set(xlabel=_PHI, ylabel="overlap over the smaller radius [%]")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, 30 * high)
+    ax.legend(loc="upper left", ncols=2)
+    return ax
+
+
+def plot_dissipation(states, ax=None):
+    """Draw the share of the work that is dissipated, which never is negative.
+
+    Parameters
+    ----------
+    states : DataFrame
+        `certificate.csv`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    loaded = states[states["carries_load"]]
+    if not len(loaded):
+        return reason(ax, _LOOSE)
+    for leg, color in (("loading", MEASURED), ("unloading", OTHER)):
+        part = loaded[loaded["leg"] == leg]
+        if len(part):
+            share = 100 * part["dissipated_share"]
+            ax.plot(part["solid_fraction"], share, ".", color=color, ms=3, label=leg)
+    ax.set(xlabel=_PHI, ylabel="work dissipated so far [%]", ylim=(0, None))
+    ax.legend(loc="best")
+    return ax
+
+
+def plot_jamming(jamming, ax=None):
+    """Draw the jamming point of every packing with its uncertainty, in and back.
+
+    Parameters
+    ----------
+    jamming : DataFrame
+        `jamming.csv`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    if jamming.filter(like="jamming_solid_fraction").isna().all(axis=None):
+        return reason(ax, "in no packing do enough strain steps carry load")
+    place = np.arange(len(jamming))
+    for leg, color, shift in (("loading", MEASURED, -0.1), ("unloading", OTHER, 0.1)):
+        phi = jamming[f"jamming_solid_fraction_{leg}"]
+        if phi.notna().any():
+            error = jamming[f"uncertainty_{leg}"]
+            label = f"{leg}: mean {phi.mean():.4f}"
+            ax.errorbar(place + shift, phi, error, fmt="o", ms=3, lw=0.8, color=color, label=label)
+    shown = place[:: max(1, len(place) // 8)]
+    ax.set_xticks(shown, jamming["seed"].iloc[shown])
+    ax.set_xlim(-0.5, len(place) - 0.5)
+    ax.set(xlabel="seed", ylabel=r"jamming solid fraction $\phi_J$ [-]")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.35 * (high - low))
+    ax.legend(loc="upper left", title="bars: one standard deviation", title_fontsize=6.5)
+    return ax

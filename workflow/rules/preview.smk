@@ -1,0 +1,24 @@
+# Preview: the configuration alone -> what each sample will be, cost and take on this machine.
+
+
+rule preview:
+    input:
+        inputs=rules.compression.input.inputs,
+        data=[file for s in SAMPLES.values() for file in grading_data_files(s["grading"])],
+        code=code("preview"),
+    log:
+        "logs/preview.log",
+    localrule: True
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        # No output of the workflow, nor a benchmark, which is one: a preview is made anew each
+        # time it is asked for.
+        text="results/preview.txt",
+        figures=[f"results/figures/{sample}/preview.png" for sample in SAMPLES],
+        samples=SAMPLES,
+        ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
+        cores=workflow.cores or 1,
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/preview.py"

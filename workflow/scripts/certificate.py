@@ -1,0 +1,18 @@
+"""Judge every saved state, and find the jamming point of every packing."""
+
+from branchcrush.certificate import jamming_points, state_certificates
+from branchcrush.contact_law import contact_law
+from branchcrush.jobs import job
+from branchcrush.loading_path import stress_floor
+from branchcrush.tables import provenance, read_packing, read_table, write_table
+
+with job(snakemake.log[0]):
+    sample, files = snakemake.params.sample, snakemake.input
+    law, seeds = contact_law(**sample["contact"]), sample["seeds"]
+    paths = [read_table(path) for path in files.paths]
+    floors = [stress_floor(read_packing(path)[1], law) for path in files.packings]
+    steps = [read_table(path) for path in files.steps]
+    points = jamming_points(seeds, steps, paths, law.exponent, floors)
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_table(snakemake.output.states, state_certificates(seeds, paths), origin)
+    write_table(snakemake.output.jamming, points, origin)
