@@ -78,7 +78,7 @@ lint: $(READY) ## style and the workflow's own checks
 # mirror named only to pip, pip installs. Without build isolation a package that comes as source is
 # built by the pinned setuptools instead of by the newest one.
 PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check
-UV_INSTALL := $(BIN)/uv pip install --quiet --no-config --python $(BIN)/python
+UV_INSTALL := $(BIN)/uv pip install --quiet --no-config --compile-bytecode --python $(BIN)/python
 FROM_LOCK := --no-build-isolation --require-hashes -r requirements.lock
 
 $(VENV)/.packages: requirements.lock

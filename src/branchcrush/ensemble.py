@@ -186,7 +186,6 @@ def final_energy_split(contacts, paths, edges, jamming, *, confidence, resamples
     )
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
-    ends = stacked([path[path["state"] == state] for path in paths])
     branches = pd.concat([_final(contact) for contact in contacts])
     whole = power_law_fit(_length(branches), branches["energy_J"].to_numpy())
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
@@ -195,22 +194,11 @@ def final_energy_split(contacts, paths, edges, jamming, *, confidence, resamples
         "exponent_low": exponent.low,
         "exponent_high": exponent.high,
         "confidence": confidence,
-        "seeds": len(contacts),
-        "branches": len(branches),
         "amplitude_J_per_m_n": float(law.amplitude),
         "reference_length_m": reference,
         "exponent_of_each_seed": alone,
         "mean_of_seed_exponents": float(np.mean(alone)),
-        "solid_fraction": float(ends["solid_fraction"].mean()),
-        "jamming_solid_fraction": float(jamming),
-        "mean_stress_Pa": float(ends["mean_stress_Pa"].mean()),
-        "elastic_energy_J_per_m3": float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
-        "median_overlap_ratio": float(
-            (branches["overlap_m"] / branches["branch_length_m"]).median()
-        ),
-        "coordination_number": float(ends["coordination_number"].mean()),
-        "mechanical_coordination_number": float(ends["mechanical_coordination_number"].mean()),
-        "rattler_fraction": float(ends["rattler_fraction"].mean()),
+        **end_state(contacts, paths, jamming),
         "cubic_slope": slope,
         "cubic_r_squared": r_squared,
         "predictors": [
@@ -222,6 +210,37 @@ def final_energy_split(contacts, paths, edges, jamming, *, confidence, resamples
         ],
     }
     return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
+
+
+def end_state(contacts, paths, jamming):
+    """Return what the packings are like at the end of their loading, means over the seeds.
+
+    Parameters
+    ----------
+    contacts, paths : list of DataFrame
+        The tables of each seed, from `certified_loading`.
+    jamming : float
+        Mean phi_J of the packings [-].
+
+    Returns
+    -------
+    dict
+    """
+    ends = pd.DataFrame([path.iloc[-1] for path in paths])
+    branches = pd.concat([_final(contact) for contact in contacts])
+    overlap = branches["overlap_m"] / branches["branch_length_m"]
+    return {
+        "seeds": len(paths),
+        "branches": len(branches),
+        "solid_fraction": float(ends["solid_fraction"].mean()),
+        "jamming_solid_fraction": float(jamming),
+        "mean_stress_Pa": float(ends["mean_stress_Pa"].mean()),
+        "elastic_energy_J_per_m3": float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
+        "median_overlap_ratio": float(overlap.median()),
+        "coordination_number": float(ends["coordination_number"].mean()),
+        "mechanical_coordination_number": float(ends["mechanical_coordination_number"].mean()),
+        "rattler_fraction": float(ends["rattler_fraction"].mean()),
+    }
 
 
 def exponents_along_path(contacts, paths, edges, jamming, *, confidence, resamples):

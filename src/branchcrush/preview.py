@@ -13,7 +13,9 @@ from branchcrush.representativity import representativity
 
 # Force evaluations of a packing of 1000 grains: for each strain step, and more for each saved
 # state. From the table of docs/quality.md; a packing may need half or twice as many.
-_STEP, _STATE = 700.0, 1800.0
+_STEP, _STATE = 400.0, 2600.0
+# Over the same to a strain: a stress close to jamming is sought where relaxation is slow.
+_STRESS = 2.5
 # Grains between which a strain has to travel: evaluations grow about so with their number.
 _GROWTH = 1.0 / 3.0
 # Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
@@ -70,6 +72,8 @@ def sample_plan(sample, refined, grading, law, seconds_per_grain):
             )
     steps, states = planned_steps(loading, start, sample["strain_step"], overlap)
     evaluations = (_STEP * steps + _STATE * states) * (grains / 1000.0) ** _GROWTH
+    if loading["target"] == "mean_stress":
+        evaluations *= _STRESS
     packings = len(sample["seeds"]) + 2.0 * refined
     summary = grading_summary(grading)
     return Plan(

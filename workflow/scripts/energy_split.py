@@ -1,7 +1,12 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
 from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import certified_loading, exponents_along_path, final_energy_split
+from branchcrush.ensemble import (
+    certified_loading,
+    end_state,
+    exponents_along_path,
+    final_energy_split,
+)
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
@@ -14,14 +19,16 @@ with job(snakemake.log[0]):
     paths, contacts = (
         [read_table(path) for path in kind] for kind in (files.paths, files.contacts)
     )
+    known = {}
     try:
         used, paths, contacts = certified_loading(read_table(files.certificate), paths, contacts)
         jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used].mean()
+        known = end_state(contacts, paths, jamming)
         table, fit = final_energy_split(contacts, paths, edges, jamming, **settings)
         along = exponents_along_path(contacts, paths, edges, jamming, **settings)
     except FitError as error:
         table, fit = no_data(error)
-        along = table
+        along, fit = table, {**known, **fit}
     origin = provenance(
         sample=snakemake.wildcards.sample,
         seeds=sample["seeds"],
