@@ -123,7 +123,7 @@ def plot_exponent_path(path, fit, ax=None):
     top = ax.twiny()
     top.set_xlim(ax.get_xlim())
     shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
-    top.set_xticks(phi.iloc[shown], [f"{v:.2g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
+    top.set_xticks(phi.iloc[shown], [f"{v:.3g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
     top.set_xlabel("mean stress [MPa]")
     top.spines["top"].set_visible(True)
     ax.legend(loc="best")
