@@ -73,6 +73,9 @@ def jamming_point(solid_fraction, mean_stress, contact_exponent, loaded):
     first, phi, root = phi[0], phi[near], root[near]
     lines = [_zero(phi, root, degree) for degree in ((1, 2) if phi.size > _FEWEST else (1,))]
     lines = [line for line in lines if 0.0 < line[0] <= first]
+    if not lines and loose:  # the stress does not tell more than where it was last loose
+        middle, half = (first + loose) / 2.0, (first - loose) / 2.0
+        return Jamming(float(middle), float(half), int(phi.size))
     if not lines:
         raise FitError("the stress does not rise from zero along the path")
     value, error = lines[-1]

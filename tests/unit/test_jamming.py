@@ -129,3 +129,12 @@ def test_a_falling_stress_is_refused(states):
     phi = np.linspace(0.64, 0.67, states)
     with pytest.raises(FitError, match="does not rise"):
         jamming_point(phi, 1e6 * (0.70 - phi), 1.0, np.ones(states, dtype=bool))
+
+
+def test_a_stress_that_falls_at_first_leaves_what_is_known_of_the_way():
+    # Last loose at 0.62, loaded from 0.64 on: between the two, whatever its stress does.
+    phi = np.array([0.60, 0.62, 0.64, 0.65, 0.66, 0.67, 0.68])
+    stress = np.array([0.0, 0.0, 9.0, 7.0, 5.0, 4.0, 3.0])
+    point = jamming_point(phi, stress, 1.0, stress > 0)
+    assert point.solid_fraction == pytest.approx(0.63)
+    assert point.uncertainty == pytest.approx(0.01)
