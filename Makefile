@@ -46,7 +46,7 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	for name in $$(ls examples); do \
 	  $(MAKE) --no-print-directory example NAME=$$name || exit 1; \
 	  for sample in $$(ls examples/$$name/results/figures); do \
-	    for figure in fig3_grading fig4_packing fig5_energy_split loading_path certificate; do \
+	    for figure in fig3_grading fig5_energy_split loading_path certificate; do \
 	      mkdir -p examples/$$name/figures; \
 	      $(SHRINK) examples/$$name/results/figures/$$sample/$$figure.png examples/$$name/figures/$${sample}_$$figure.png; \
 	    done; done; \
