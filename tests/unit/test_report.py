@@ -248,3 +248,10 @@ def test_page_tells_of_the_way_back(page):
 def test_jamming_of_the_seeds_used_may_be_unknown(page):
     html = page({"fit": {**FIT, "jamming_solid_fraction": None}})
     assert "at &phi; = 0.741, 56 MPa." in html
+
+
+def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
+    model = {**MODEL, "theta": 0.0, "yield_strain": None, "yield_stress_Pa": None}
+    html = page({"model": {**model, "yields_on_path": False}})
+    assert "crushing would release nothing and never begins" in html
+    assert "Crushing begins at" not in html
