@@ -29,7 +29,6 @@ run: $(READY) ## the study of config.yaml: results/, its figures and the exponen
 
 preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
 	@$(IN_ENVIRONMENT) snakemake --cores $(CORES) --quiet all -- preview
-	@cat results/preview.txt
 
 example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \
@@ -51,7 +50,7 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	      $(SHRINK) examples/$$name/results/figures/$$sample/$$figure.png examples/$$name/figures/$${sample}_$$figure.png; \
 	    done; done; \
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
-	$(MADE) > examples/made.txt
+	$(MADE) > docs/results/gallery_made.txt
 
 quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, half an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
