@@ -238,22 +238,29 @@ def _convergence(table):
             "convergence not checked: no seed was run again with twice the strain steps and "
             "certified in both runs"
         ]
-    reasons = []
+    reasons, flags = [], []
     for row in table[table["quantity"] != "force_evaluations"].itertuples():
         allowed = (
             _LARGEST_EXPONENT_CHANGE
             if row.quantity == "exponent"
             else _LARGEST_CHANGE * abs(row.value)
         )
-        # A difference within the 95 % interval of the pairs is no difference that was seen.
+        if not abs(row.difference) > allowed:  # nor where there is no number to compare
+            continue
+        changes = (
+            f"{row.quantity} changes from {row.value:.4g} to {row.value_at_twice_the_steps:.4g} "
+            "with twice the strain steps"
+        )
+        # Within the 95 % interval of the pairs, a difference may be chance: too few to tell.
         noise = stats.t.ppf(0.975, row.seeds - 1) * row.standard_error_of_difference
-        if abs(row.difference) > max(allowed, 0.0 if np.isnan(noise) else noise):
-            reasons.append(
-                f"not converged: {row.quantity} changes from {row.value:.4g} to "
-                f"{row.value_at_twice_the_steps:.4g} with twice the strain steps: raise "
-                "loading.quality"
+        if abs(row.difference) <= noise:
+            flags.append(
+                f"convergence not decided: {changes}, within ±{noise:.2g} of {row.seeds} pairs "
+                "of one seed: raise refined_seeds"
             )
-    return reasons, []
+        else:
+            reasons.append(f"not converged: {changes}: raise loading.quality")
+    return reasons, flags
 
 
 def _mean(values):

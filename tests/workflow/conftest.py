@@ -129,6 +129,12 @@ def project(tmp_path):
 
 
 @pytest.fixture(scope="session")
+def new_project():
+    """Return what makes a copy of the project in a folder."""
+    return Project
+
+
+@pytest.fixture(scope="session")
 def finished(tmp_path_factory):
     """The tiny study, run to its end."""
     project = Project(tmp_path_factory.mktemp("study"))
