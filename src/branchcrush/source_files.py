@@ -23,7 +23,7 @@ def imported_modules(path):
     Examples
     --------
     >>> sorted(imported_modules(Path(__file__).with_name("packing.py")))
-    ['errors']
+    ['cell_grid', 'errors']
     """
     found = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
@@ -52,7 +52,7 @@ def source_files(path):
     Examples
     --------
     >>> [Path(file).name for file in source_files(Path(__file__).with_name("packing.py"))]
-    ['errors.py']
+    ['cell_grid.py', 'errors.py']
     """
     pending, seen = list(imported_modules(path)), set()
     while pending:
