@@ -93,9 +93,33 @@ def test_first_line_of_a_data_file_is_a_title(tmp_path):
     assert (tmp_path / "packing.data").read_text().startswith("branchcrush packing, SI units\n\n")
 
 
+def test_lines_of_a_packing_of_many_portions_are_those_written_one_by_one(tmp_path):
+    rng = np.random.default_rng(2)
+    radii, positions = 10.0 ** rng.uniform(-8, 2, 20_001), rng.normal(size=(20_001, 3))
+    # Where Python's notation changes, and a zero with a sign.
+    positions[:3] = [[1e-5, 1e-4, -0.0], [1e16, 1e15, 5e-324], [0.1 + 0.2, 1.0, -1e300]]
+    write_data_file(tmp_path / "packing.data", positions, radii, 2.0)
+    text = (tmp_path / "packing.data").read_text()
+    assert text.endswith("\n")
+    lines = text.splitlines()[-20_001:]
+    assert lines[0] == f"1 1 {2 * float(radii[0])!r} 1.0 1e-05 0.0001 -0.0"
+    assert lines[1:] == [
+        " ".join([str(n), "1", repr(2.0 * float(radius)), "1.0", *(repr(float(x)) for x in place)])
+        for n, radius, place in zip(range(2, 20_002), radii[1:], positions[1:], strict=True)
+    ]
+
+
+def test_columns_of_a_table_are_written_whatever_their_layout(tmp_path):
+    positions = np.asfortranarray(np.arange(6.0).reshape(2, 3))
+    write_data_file(tmp_path / "arrays", positions, np.array([0.5, 1.0, 2.0])[::2], 2.0)
+    write_data_file(tmp_path / "lists", [[0, 1, 2], [3, 4, 5]], [0.5, 2], 2)
+    assert (tmp_path / "arrays").read_text() == (tmp_path / "lists").read_text()
+
+
 def test_radii_and_positions_must_be_of_one_number(tmp_path):
     with pytest.raises(ValueError, match="shorter"):
         write_data_file(tmp_path / "packing.data", [[0.0, 0.0, 0.0]], [0.5, 0.5], 2.0)
+    assert not (tmp_path / "packing.data").exists()
 
 
 def dump(folder, text, compressed):
