@@ -4,7 +4,7 @@ import contextlib
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy.special import stdtrit
 
 from branchcrush.ensemble import end_of_loading
 from branchcrush.errors import FitError
@@ -252,7 +252,7 @@ def _convergence(table):
             "with twice the strain steps"
         )
         # Within the 95 % interval of the pairs, a difference may be chance: too few to tell.
-        noise = stats.t.ppf(0.975, row.seeds - 1) * row.standard_error_of_difference
+        noise = stdtrit(row.seeds - 1, 0.975) * row.standard_error_of_difference
         if abs(row.difference) <= noise:
             flags.append(
                 f"convergence not decided: {changes}, within ±{noise:.2g} of {row.seeds} pairs "

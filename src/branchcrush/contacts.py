@@ -76,14 +76,16 @@ def rattlers(i, j, grains, wall_contacts=None):
     [True, True, True]
     """
     i, j = np.asarray(i, dtype=int), np.asarray(j, dtype=int)
-    walls = np.zeros(grains, dtype=int) if wall_contacts is None else np.asarray(wall_contacts)
-    loose = np.zeros(grains, dtype=bool)
+    number = contact_number(i, j, grains)
+    if wall_contacts is not None:
+        number += np.asarray(wall_contacts)
     while True:
-        held = ~(loose[i] | loose[j])
-        now = contact_number(i[held], j[held], grains) + walls < STABLE_CONTACTS
-        if np.array_equal(now, loose):
+        loose = number < STABLE_CONTACTS
+        lost = loose[i] | loose[j]
+        if not lost.any():
             return loose
-        loose = now
+        number -= contact_number(i[lost], j[lost], grains)
+        i, j = i[~lost], j[~lost]
 
 
 def mechanical_coordination_number(i, j, grains, wall_contacts=None):

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.energy_split import binned_exponent
-from branchcrush.ensemble import certified_loading, split_sums
+from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
 
 _QUANTITIES = (
@@ -26,17 +26,16 @@ _COLUMNS = (
 )
 
 
-def convergence_table(certificates, once, twice, edges):
+def convergence_table(certificates, once, twice):
     """Return the quantities at the end of the loading with the steps asked for and with twice.
 
     Parameters
     ----------
     certificates : list of DataFrame
         `certificate.csv` of both runs, or none when no seed was run twice.
-    once, twice : tuple of (list of DataFrame, list of DataFrame)
-        The path and the contacts tables of the seeds run twice.
-    edges : array_like, shape (n+1,)
-        Bin edges of the energy split [m].
+    once, twice : tuple of (list of DataFrame, list of ndarray)
+        The path of each seed run twice, and its binned energies at the end of its loading, as
+        `branches.state_sums`.
 
     Returns
     -------
@@ -47,8 +46,8 @@ def convergence_table(certificates, once, twice, edges):
     """
     try:
         runs = [
-            certified_loading(certificate, *run)
-            for certificate, run in zip(certificates, (once, twice), strict=False)
+            certified_loading(certificate, paths)
+            for certificate, (paths, _) in zip(certificates, (once, twice), strict=False)
         ]
     except FitError:
         runs = []
@@ -56,11 +55,9 @@ def convergence_table(certificates, once, twice, edges):
     if not both:
         return pd.DataFrame(columns=_COLUMNS)
     ends, exponents, together = [], [], []
-    for used, paths, contacts in runs:
-        chosen = [used.index(number) for number in both]
-        ends.append([paths[number].iloc[-1] for number in chosen])
-        state = int(paths[0]["state"].iloc[-1])
-        sums = split_sums([contacts[number] for number in chosen], state, edges)
+    for (used, paths), (_, sums) in zip(runs, (once, twice), strict=True):
+        ends.append([paths[used.index(number)].iloc[-1] for number in both])
+        sums = np.stack([sums[number] for number in both])
         together.append(_exponent(sums))
         exponents.append([_exponent(seed[None]) for seed in sums])
     rows = [_row("exponent", together, np.array(exponents))]

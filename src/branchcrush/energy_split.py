@@ -8,12 +8,14 @@ whatever the scale of its energy, and the amplitude is free.
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtrit
 
 from branchcrush.errors import FitError
 
 _ITERATIONS = 200
 _CONVERGED = 1e-11
+# How many branches the fit takes at a time: what it makes of them stays in the processor's cache.
+_PIECE = 1 << 14
 
 
 class PowerLaw(NamedTuple):
@@ -133,25 +135,28 @@ def power_law_fit(length, energy, weight=1.0):
     """
     length, energy = np.asarray(length, dtype=float), np.asarray(energy, dtype=float)
     weight = np.broadcast_to(np.asarray(weight, dtype=float), energy.shape)
+    lengths = np.broadcast_to(length, energy.shape)
     used = (weight > 0) & (energy > 0) & (length > 0)
-    first = np.where(used, length, np.inf).min(axis=-1, initial=np.inf)
-    last = np.where(used, length, -np.inf).max(axis=-1, initial=-np.inf)
+    first = lengths.min(axis=-1, initial=np.inf, where=used)
+    last = lengths.max(axis=-1, initial=-np.inf, where=used)
     if not np.all(np.isfinite(energy)) or np.any(first >= last):
         raise FitError("a power law needs finite energy at two or more branch lengths")
     scale = np.average(length, weights=weight.reshape(-1, length.size).sum(axis=0))
     x = np.log(length / scale)
     total = weight.sum(axis=-1)
-    energy_scale = (weight * energy).sum(axis=-1, keepdims=True) / total[..., None]
-    y = energy / energy_scale
-    centred = x - ((weight * x).sum(axis=-1) / total)[..., None]
+    mean = (weight * x).sum(axis=-1) / total
+    energy_scale = (weight * energy).sum(axis=-1) / total
+    weighted = weight * energy / energy_scale[..., None]
+    centred = x - mean[..., None]
+    # Zero but for rounding, which is what it is here for.
+    residue = (weight * centred).sum(axis=-1)
 
     # Newton's method on the deviance, which is convex in intercept and slope. Steps are bounded:
     # where a mean is far too high, its energy hardly counts and the full step overshoots.
     intercept, slope = np.zeros(total.shape), np.full(total.shape, 3.0)
     for _ in range(_ITERATIONS):
-        ratio = weight * y * np.exp(-intercept[..., None] - slope[..., None] * centred)
-        zeroth, first, second = (np.sum(ratio * centred**k, axis=-1) for k in range(3))
-        excess, tilt = zeroth - total, first - (weight * centred).sum(axis=-1)
+        zeroth, first, second = _moments(weighted, centred, intercept, slope)
+        excess, tilt = zeroth - total, first - residue
         determinant = zeroth * second - first**2
         steps = (second * excess - first * tilt, zeroth * tilt - first * excess)
         steps = [np.clip(step / determinant, -1.0, 1.0) for step in steps]
@@ -160,8 +165,21 @@ def power_law_fit(length, energy, weight=1.0):
             break
     else:
         raise FitError("the power-law fit did not converge: too few branches carry energy")
-    log_amplitude = intercept - slope * (x - centred)[..., 0] - slope * np.log(scale)
-    return PowerLaw(energy_scale[..., 0] * np.exp(log_amplitude), slope)
+    log_amplitude = intercept - slope * (mean + np.log(scale))
+    return PowerLaw(energy_scale * np.exp(log_amplitude), slope)
+
+
+def _moments(weighted, centred, intercept, slope):
+    """Return the sums over the points of w y exp(-a - b x) times 1, x and x^2."""
+    sums = np.zeros((3, *slope.shape))
+    for start in range(0, centred.shape[-1], _PIECE):
+        x = centred[..., start : start + _PIECE]
+        terms = np.exp(-intercept[..., None] - slope[..., None] * x)
+        terms *= weighted[..., start : start + _PIECE]
+        for order in range(3):
+            sums[order] += terms.sum(axis=-1)
+            terms *= x
+    return sums
 
 
 def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
@@ -220,7 +238,7 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     means = drawn_energies / np.maximum(drawn_counts, 1.0)
     refits = power_law_fit(length, means, drawn_counts).exponent
     error = refits.std(ddof=1) * np.sqrt(seeds / (seeds - 1.0))
-    half = stats.t.ppf((1.0 + confidence) / 2.0, seeds - 1) * error
+    half = stdtrit(seeds - 1, (1.0 + confidence) / 2.0) * error
     return fit, Interval(estimate, float(estimate - half), float(estimate + half))
 
 

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtrit
 
 from branchcrush.errors import FitError
 
@@ -107,4 +107,4 @@ def _zero(phi, root, degree):
     at_zero = zero ** np.arange(degree + 1)
     error = np.sqrt(at_zero @ covariance @ at_zero) / slope
     # Few spare states tell little of their own scatter: Student's t makes up for it.
-    return zero + centre, float(error * stats.t.ppf(0.841344746, max(spare, 1)))
+    return zero + centre, float(error * stdtrit(max(spare, 1), 0.841344746))

@@ -117,6 +117,16 @@ def test_weight_counts_as_that_many_branches():
     assert_allclose(power_law_fit(length, energy, times), repeated, rtol=1e-9)
 
 
+def test_many_branches_are_fitted_like_a_few_of_their_weight():
+    # More than are taken at a time, and no multiple of that.
+    rng = np.random.default_rng(5)
+    length, energy = lengths(rng, 30), rng.standard_exponential(30)
+    times = rng.integers(1, 8_000, 30)
+    order = rng.permutation(times.sum())
+    repeated = power_law_fit(np.repeat(length, times)[order], np.repeat(energy, times)[order])
+    assert_allclose(power_law_fit(length, energy, times), repeated, rtol=1e-9)
+
+
 @pytest.mark.parametrize("energy", [0.0, 1e9])
 def test_points_of_no_weight_are_left_out(energy):
     fit = power_law_fit([1.0, 2.0, 3.0, 4.0], [5.0, 40.0, energy, 320.0], [2, 1, 0, 1])

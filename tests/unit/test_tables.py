@@ -58,6 +58,13 @@ def test_table_is_read_as_it_was_written(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
+def test_columns_are_read_alone_when_they_are_named(tmp_path, name):
+    write_table(tmp_path / name, TABLE, ORIGIN)
+    found = read_table(tmp_path / name, ("state", "wall"))
+    assert_frame_equal(found, pd.DataFrame(TABLE)[["state", "wall"]], check_exact=True)
+
+
+@pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
 def test_number_that_is_not_known_stays_so(tmp_path, name):
     write_table(tmp_path / name, {"inertial_number": [1.0, np.nan]}, ORIGIN)
     assert_array_equal(read_table(tmp_path / name)["inertial_number"], [1.0, np.nan])

@@ -1,8 +1,9 @@
 """Measure the distribution of branch lengths at the end of the loading."""
 
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
+from branchcrush.branches import LENGTH_COLUMNS, state_lengths
 from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import certified_loading, final_branches
+from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
@@ -18,12 +19,14 @@ from branchcrush.tables import (
 with job(snakemake.log[0]):
     files, sample = snakemake.input, snakemake.params.sample
     grading = grading_of(sample["grading"])
-    paths, contacts = (
-        [read_table(path) for path in kind] for kind in (files.paths, files.contacts)
-    )
+    paths = [read_table(path) for path in files.paths]
     try:
-        used, paths, contacts = certified_loading(read_table(files.certificate), paths, contacts)
-        lengths = final_branches(contacts)
+        used, paths = certified_loading(read_table(files.certificate), paths)
+        end = paths[0]["state"].iloc[-1]
+        lengths = [
+            state_lengths(read_table(files.contacts[number], LENGTH_COLUMNS), end)
+            for number in used
+        ]
         edges = bin_edges(*grading.support(), snakemake.params.bins)
         table = branch_length_table(lengths, grading, edges)
         statistics = branch_statistics(

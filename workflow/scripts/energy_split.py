@@ -1,12 +1,14 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
-from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import (
-    certified_loading,
+from branchcrush.branches import (
+    COLUMNS,
     end_state,
     exponents_along_path,
     final_energy_split,
+    seed_branches,
 )
+from branchcrush.energy_split import bin_edges
+from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
@@ -16,16 +18,18 @@ with job(snakemake.log[0]):
     files, sample = snakemake.input, snakemake.params.sample
     settings = dict(snakemake.params.energy_split)
     edges = bin_edges(*grading_of(sample["grading"]).support(), settings.pop("bins"))
-    paths, contacts = (
-        [read_table(path) for path in kind] for kind in (files.paths, files.contacts)
-    )
+    paths = [read_table(path) for path in files.paths]
     known = {}
     try:
-        used, paths, contacts = certified_loading(read_table(files.certificate), paths, contacts)
+        used, paths = certified_loading(read_table(files.certificate), paths)
+        branches = [
+            seed_branches(read_table(files.contacts[number], COLUMNS), paths[0]["state"], edges)
+            for number in used
+        ]
         jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used].mean()
-        known = end_state(contacts, paths, jamming)
-        table, fit = final_energy_split(contacts, paths, edges, jamming, **settings)
-        along = exponents_along_path(contacts, paths, edges, jamming, **settings)
+        known = end_state(branches, paths, jamming)
+        table, fit = final_energy_split(branches, paths, edges, jamming, **settings)
+        along = exponents_along_path(branches, paths, jamming, **settings)
     except FitError as error:
         table, fit = no_data(error)
         along, fit = table, {**known, **fit}

@@ -17,7 +17,7 @@ with job(snakemake.log[0]):
     try:
         if "reason" in fit:
             raise FitError(fit["reason"])
-        used, _, _ = certified_loading(read_table(files.certificate), paths, paths)
+        used, _ = certified_loading(read_table(files.certificate), paths)
         curves, summary = crushing_curves(
             on_the_way_in(paths, used),
             Interval(fit["exponent"], fit["exponent_low"], fit["exponent_high"]),
