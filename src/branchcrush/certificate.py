@@ -4,7 +4,6 @@ import contextlib
 
 import numpy as np
 import pandas as pd
-from scipy.special import stdtrit
 
 from branchcrush.ensemble import end_of_loading
 from branchcrush.errors import FitError
@@ -36,6 +35,8 @@ _AFTER_LOADING = "comes loose on the way back"
 # What twice the strain steps may change before a sample counts as not converged.
 _LARGEST_CHANGE = 0.02
 _LARGEST_EXPONENT_CHANGE = 0.1
+# Unbalanced force ratio of a strain step that came to rest [-], the largest of `loading`.
+_STEP_AT_REST = 3.0e-2
 
 
 def state_certificates(seeds, paths):
@@ -108,6 +109,8 @@ def _verdict(measures, carries_load, overlap):
 def jamming_points(seeds, steps, paths, contact_exponent, stress_floor):
     """Return the jamming point of every packing, on the way in and on the way back.
 
+    Steps that went on before they came to rest are left out: their stress is that of motion.
+
     Parameters
     ----------
     seeds : list of int
@@ -131,6 +134,7 @@ def jamming_points(seeds, steps, paths, contact_exponent, stress_floor):
         row = {"seed": seed}
         for leg, part in (("loading", table[:turn]), ("unloading", table[turn:])):
             phi, error, states = np.nan, np.nan, 0
+            part = part[part["unbalanced_force_ratio"] <= _STEP_AT_REST]
             loaded = part["mean_stress_Pa"] > floor
             with contextlib.suppress(FitError):
                 phi, error, states = jamming_point(
@@ -238,6 +242,8 @@ def _convergence(table):
             "convergence not checked: no seed was run again with twice the strain steps and "
             "certified in both runs"
         ]
+    from scipy.special import stdtrit  # slow to import, and few jobs need it
+
     reasons, flags = [], []
     for row in table[table["quantity"] != "force_evaluations"].itertuples():
         allowed = (

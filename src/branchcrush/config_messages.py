@@ -88,7 +88,8 @@ def _yaml(value):
     if isinstance(value, float):
         return f"{value:g}" if math.isfinite(value) else str(value)
     if isinstance(value, str):
-        return value if number_of(value) is not None else repr(value[: _LONGEST + 1])
+        number = number_of(value) is not None and value.isprintable()
+        return value if number else repr(value[: _LONGEST + 1])
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(_yaml, value[:_LONGEST]))}]"
     if isinstance(value, dict):

@@ -6,8 +6,13 @@ from branchcrush.packing import cube_edge
 
 # Largest linear strain of a step [-]. docs/quality.md tells what each is good for, measured.
 STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}
-# Mean net force over mean contact force of a saved state [-], whatever the quality.
+# Mean net force over mean contact force [-], whatever the quality: of a saved state, and of a
+# strain step on the way to an edge, or to a stress, which must be told from the next step's.
 UNBALANCED_FORCE_RATIO = 1.0e-7
+STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 1.0e-2}
+# A step to an edge that does not get there in so many force evaluations goes on as it is. Close to
+# jamming most do not: the packing moves on before it has come to rest.
+STEP_FORCE_EVALUATIONS = 200
 # Of a packing loaded to a stress, whose solid fraction nobody knows beforehand.
 _LOADED = 0.64
 STRAIN_TARGETS = ("edge_reduction", "volume_reduction", "solid_fraction")

@@ -53,7 +53,7 @@ def state_contacts(pairs, radii, law):
 
     Parameters
     ----------
-    pairs : DataFrame
+    pairs : mapping of columns
         A frame of the pair dump: id1, id2, branch and branch_x, -y, -z [m], force [N].
     radii : ndarray, shape (N,)
         By id [m].
@@ -70,9 +70,9 @@ def state_contacts(pairs, radii, law):
     SimulationError
         When a contact is listed twice.
     """
-    first, second = (pairs[name].to_numpy().astype(int) - 1 for name in ("id1", "id2"))
+    first, second = (np.asarray(pairs[name], dtype=int) - 1 for name in ("id1", "id2"))
     i, j = np.minimum(first, second), np.maximum(first, second)
-    branch, force = pairs["branch"].to_numpy(), pairs["force"].to_numpy()
+    branch, force = np.asarray(pairs["branch"]), np.asarray(pairs["force"])
     pair = i * len(radii) + j
     order = np.lexsort((branch, pair))
     i, j, branch, force = i[order], j[order], branch[order], force[order]
@@ -81,8 +81,9 @@ def state_contacts(pairs, radii, law):
     if again.any():
         same = np.append(again, False) | np.append(False, again)
         rows = order[same]
+        columns = np.column_stack([pairs[f"branch_{axis}"] for axis in "xyz"])
         towards = np.where(first[rows] < second[rows], 1.0, -1.0)[:, None]
-        vector = towards * pairs[["branch_x", "branch_y", "branch_z"]].iloc[rows].to_numpy()
+        vector = towards * columns[rows]
         if len(np.unique(np.column_stack([i[same], j[same], vector]), axis=0)) < len(rows):
             raise SimulationError("LAMMPS lists a contact twice")
     return {
@@ -102,7 +103,7 @@ def wall_contacts(particles, edge):
 
     Parameters
     ----------
-    particles : DataFrame
+    particles : mapping of columns
         A frame of the particle dump, sorted by id: x, y, z, radius [m], v_wall_fx, -fy, -fz [N].
     edge : float
         Edge of the cell [m].
@@ -113,10 +114,10 @@ def wall_contacts(particles, edge):
         i (from 0), wall ("-x" ... "+z"), overlap_m, normal_force_N.
     """
     found = {"i": [], "wall": [], "overlap_m": [], "normal_force_N": []}
-    radius = particles["radius"].to_numpy()
+    radius = np.asarray(particles["radius"])
     for axis in "xyz":
-        force = particles[f"v_wall_f{axis}"].to_numpy()
-        place = particles[axis].to_numpy()
+        force = np.asarray(particles[f"v_wall_f{axis}"])
+        place = np.asarray(particles[axis])
         touching = np.flatnonzero(force)
         # A wall pushes inwards: towards +x at -x.
         side = np.where(force[touching] > 0, -1, 1)
@@ -127,6 +128,17 @@ def wall_contacts(particles, edge):
     return {name: np.concatenate(parts) for name, parts in found.items()}
 
 
+def cube(edge):
+    """Return the volume of a cube, to the same last bit for a number and for an array.
+
+    Examples
+    --------
+    >>> cube(2.0)
+    8.0
+    """
+    return edge * edge * edge
+
+
 def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     """Return the row of `path.csv` of a state.
 
@@ -134,7 +146,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     ----------
     scalars : mapping
         The state's line of `states.csv` as in.compress writes it.
-    particles : DataFrame
+    particles : mapping of columns
         Its frame of the particle dump, sorted by id.
     contacts, walls : dict
         From `state_contacts` and `wall_contacts`.
@@ -149,8 +161,8 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
         Names carry their units; strains and stress are positive in compression.
     """
     edge, work = float(scalars["edge"]), float(scalars["work"])
-    volume = edge**3
-    radius = particles["radius"].to_numpy()
+    volume = cube(edge)
+    radius = np.asarray(particles["radius"])
     grains = radius.size
     solid_volume = 4.0 / 3.0 * np.pi * np.sum(radius**3)
     floor = force_floor(radius, law)
@@ -175,7 +187,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     return {
         "state": int(scalars["state"]),
         "linear_strain": 1.0 - edge / first_edge,
-        "volumetric_strain": 1.0 - volume / first_edge**3,
+        "volumetric_strain": 1.0 - volume / cube(first_edge),
         "solid_fraction": solid_volume / volume,
         "void_ratio": volume / solid_volume - 1.0,
         "volume_m3": volume,
@@ -190,7 +202,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
         "mean_normal_force_N": mean_force,
         "carries_load": mean_force > floor,
         "unbalanced_force_ratio": unbalanced_force_ratio(
-            particles[["fx", "fy", "fz"]].to_numpy(), force, floor
+            np.column_stack([particles[f"f{axis}"] for axis in "xyz"]), force, floor
         ),
         "inertial_number": inertial,
         "median_overlap_ratio": float(median),

@@ -1,6 +1,7 @@
 """Which source files of this package a script or a module is made of, for the workflow to watch."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
@@ -8,6 +9,7 @@ _PACKAGE = Path(__file__).parent
 _NO_RESULT = {"jobs"}
 
 
+@cache
 def imported_modules(path):
     """Return the modules of this package that a Python file imports directly.
 
@@ -17,7 +19,7 @@ def imported_modules(path):
 
     Returns
     -------
-    set of str
+    frozenset of str
         Dotted names below the package, as "simulation" or "plotting.energy".
 
     Examples
@@ -33,7 +35,7 @@ def imported_modules(path):
             # `from branchcrush import tables` names a module, `from branchcrush.errors import X`
             # a name inside one.
             found |= {name for name in names if _file(name)} or {base}
-    return {name for name in found if _file(name)}
+    return frozenset(name for name in found if _file(name))
 
 
 def source_files(path):

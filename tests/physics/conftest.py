@@ -86,7 +86,7 @@ def compressed(lammps_inputs):
             folder=folder,
             log=folder.with_suffix(".log"),
         )
-        return Compression(*tables, variables, folder)
+        return Compression(*map(pd.DataFrame, tables), variables, folder)
 
     return run
 

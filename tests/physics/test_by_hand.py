@@ -12,8 +12,10 @@ import pytest
 
 from branchcrush.contact_law import HertzContact, LinearContact
 from branchcrush.lammps_files import write_data_file
+from branchcrush.lammps_run import declared_variables
+from branchcrush.loading_path import cube
 from branchcrush.packing import random_packing
-from branchcrush.simulation import compression_variables, declared_variables
+from branchcrush.simulation import compression_variables
 
 DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 
@@ -32,7 +34,7 @@ def defaults(inputs):
     assert set(found) == set(declared_variables(inputs / "in.compress"))
     for name in ("data", "inputs", "output_folder", "quit_on_failure"):
         del found[name]
-    words = {"boundary", "law", "control"}
+    words = {"boundary", "law", "control", "neighbour_style", "collections"}
     variables = {
         n: text if n in words else literal_eval(text) for n, text in found.items() if n != "targets"
     }
@@ -66,7 +68,7 @@ def assert_same_states(folder, run):
     assert states["state"].tolist() == path["state"].tolist() == list(range(len(path)))
     for lammps, ours in (("evaluations", "force_evaluations"), ("escaped",) * 2, ("lost",) * 2):
         assert states[lammps].tolist() == path[ours].tolist()
-    np.testing.assert_array_equal(edge**3, path["volume_m3"])
+    np.testing.assert_array_equal(cube(edge), path["volume_m3"])
     # The package adds what the end of the approach holds, by energies that LAMMPS does not tell.
     held = path["elastic_energy_J"].iloc[1]
     np.testing.assert_array_equal(states["work"].iloc[1:] + held, path["work_J"].iloc[1:])
@@ -89,7 +91,7 @@ def assert_same_states(folder, run):
     ):
         assert steps[lammps].tolist() == run.steps[ours].tolist()
     np.testing.assert_array_equal(steps["work"] + held, run.steps["work_J"])
-    np.testing.assert_array_equal(steps["edge"] ** 3, run.steps["volume_m3"])
+    np.testing.assert_array_equal(cube(steps["edge"]), run.steps["volume_m3"])
 
 
 def assert_energy_is_that_of_the_dumps(folder, run, frames):
@@ -151,7 +153,7 @@ STRESS = {"target": "mean_stress", "value": [1e5, 1e6], "unloading": True}
 def test_a_packing_of_the_workflow_is_loaded_as_the_package_loads_it(
     by_hand, workplace, compressed, random_grains, frames, tmp_path, boundary, law, loading
 ):
-    positions, radii, edge = random_grains(40, 2, periodic=boundary == "periodic")
+    positions, radii, edge = random_grains(40, 4, periodic=boundary == "periodic")
     variables = compression_variables(
         radii,
         0.16,

