@@ -7,7 +7,7 @@ from branchcrush.config import checked_config
 from branchcrush.config_file import config_file_problem
 from branchcrush.errors import ConfigError
 
-min_version("9.15")
+min_version("9.17")
 
 if "samples" not in config:  # none was named on the command line
     if problem := config_file_problem("config.yaml"):
@@ -28,8 +28,8 @@ except ConfigError as error:
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/packing.smk"
 include: "workflow/rules/compression.smk"
+include: "workflow/rules/grading.smk"
 include: "workflow/rules/certificate.smk"
 include: "workflow/rules/branch_lengths.smk"
 include: "workflow/rules/energy_split.smk"

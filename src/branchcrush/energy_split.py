@@ -8,7 +8,6 @@ whatever the scale of its energy, and the amplitude is free.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import stdtrit
 
 from branchcrush.errors import FitError
 
@@ -232,6 +231,8 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     estimate = float(fit.exponent)
     if seeds == 1:
         return fit, Interval(estimate, np.nan, np.nan)
+    from scipy.special import stdtrit  # slow to import, and few jobs need it
+
     draws = rng.multinomial(seeds, np.full(seeds, 1.0 / seeds), size=resamples)
     drawn_counts = draws @ sums[:, 0, filled]
     drawn_energies = draws @ sums[:, 2, filled]

@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import stdtrit
 
 from branchcrush.errors import FitError
 
@@ -101,6 +100,8 @@ def _zero(phi, root, degree):
         return np.nan, np.nan
     zero = zeros[np.argmin(np.abs(zeros))]
     slope = np.polyval(np.polyder(weights[::-1]), zero)
+    from scipy.special import stdtrit  # slow to import, and few jobs need it
+
     spare = x.size - degree - 1
     variance = np.sum((powers @ weights - y) ** 2) / max(spare, 1)
     covariance = variance * np.linalg.pinv(powers.T @ powers)

@@ -1,6 +1,7 @@
 """Files in and out: tables, fits and packings, each with where it came from."""
 
 import contextlib
+import csv
 import io
 import json
 import math
@@ -8,11 +9,11 @@ import os
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from branchcrush import __version__
+
+# pandas is imported where it is needed: the jobs of the seeds write tables without it, and start in
+# half the time.
 
 
 def provenance(**origin):
@@ -33,19 +34,55 @@ def write_table(path, table, origin):
     ----------
     path : path-like
         Ends in .csv or .parquet.
-    table : DataFrame or mapping of columns
+    table : DataFrame, dict of columns, or sequence of dict, one a row
     origin : dict
         From `provenance`.
     """
-    table = pd.DataFrame(table)
     if Path(path).suffix == ".parquet":
-        arrow = pa.Table.from_pandas(table, preserve_index=False)
-        metadata = {**(arrow.schema.metadata or {}), b"provenance": _json(origin).encode()}
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        arrow = pa.table({name: _arrow(column) for name, column in _columns(table).items()})
+        metadata = {b"provenance": _json(origin).encode()}
         with _replacing(path) as file:
             pq.write_table(arrow.replace_schema_metadata(metadata), file, compression="zstd")
     else:
-        text = f"# {_json(origin)}\n" + table.to_csv(index=False, lineterminator="\n")
-        _write(path, text.encode())
+        columns = _columns(table)
+        text = io.StringIO(f"# {_json(origin)}\n")
+        text.seek(0, io.SEEK_END)
+        lines = csv.writer(text, lineterminator="\n")
+        lines.writerow(columns)
+        lines.writerows(zip(*map(_cells, columns.values()), strict=True))
+        _write(path, text.getvalue().encode())
+
+
+def _columns(table):
+    if isinstance(table, list | tuple):
+        names = dict.fromkeys(name for row in table for name in row)
+        return {name: [row.get(name) for row in table] for name in names}
+    return dict(table.items())
+
+
+def _arrow(column):
+    """Return a column as Arrow's array, which is made of buffers: `pa.array` imports pandas."""
+    import pyarrow as pa
+
+    column = np.asarray(column)
+    if column.dtype.kind in "if":
+        kind, buffers = pa.from_numpy_dtype(column.dtype), [np.ascontiguousarray(column)]
+    elif column.dtype.kind == "U":
+        texts = [text.encode() for text in column.tolist()]
+        ends = np.cumsum([0, *map(len, texts)], dtype=np.int64)
+        kind, buffers = pa.large_string(), [ends, b"".join(texts)]
+    else:
+        return pa.array(column)
+    return pa.Array.from_buffers(kind, len(column), [None, *map(pa.py_buffer, buffers)])
+
+
+def _cells(column):
+    """Return a column as Python's own values, which print with all digits, None if not known."""
+    values = (value.item() if isinstance(value, np.generic) else value for value in column)
+    return [None if value != value else value for value in values]
 
 
 def read_table(path, columns=None):
@@ -61,6 +98,8 @@ def read_table(path, columns=None):
     -------
     DataFrame
     """
+    import pandas as pd
+
     chosen = None if columns is None else list(columns)
     if Path(path).suffix == ".parquet":
         # Column by column, each freed as soon as it is converted: half the memory.

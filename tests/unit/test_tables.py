@@ -2,6 +2,8 @@
 
 import json
 import resource
+import subprocess
+import sys
 import time
 import zipfile
 
@@ -76,6 +78,36 @@ def test_table_without_rows_keeps_its_columns(tmp_path, name):
     found = read_table(tmp_path / name)
     assert list(found.columns) == ["i", "overlap_m"]
     assert len(found) == 0
+
+
+def test_table_may_be_a_list_of_rows_that_lack_some_columns(tmp_path):
+    rows = [{"sample": "sand", "exponent": 3.0}, {"sample": "powder", "reason": "no load, none"}]
+    write_table(tmp_path / "table.csv", rows, {})
+    lines = (tmp_path / "table.csv").read_text().splitlines()[1:]
+    assert lines == ["sample,exponent,reason", "sand,3.0,", 'powder,,"no load, none"']
+
+
+def test_csv_is_what_pandas_would_write(tmp_path):
+    table = {**TABLE, "said": ['a "b"', "a, b", "", "a\nb", "κ", "0", "nan"], "none": [np.nan] * 7}
+    write_table(tmp_path / "table.csv", table, {})
+    _, _, text = (tmp_path / "table.csv").read_bytes().decode().partition("\n")
+    assert text == pd.DataFrame(table).to_csv(index=False, lineterminator="\n")
+
+
+def test_tables_are_written_without_pandas(tmp_path):
+    program = """
+import sys
+import numpy as np
+from branchcrush.tables import write_table
+
+table = {"i": np.arange(2), "overlap_m": np.array([0.5, 0.1]), "wall": np.array(["-x", "+z"])}
+for name in ("table.csv", "table.parquet"):
+    write_table(name, table, {})
+assert "pandas" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=True)
+    for name in ("table.csv", "table.parquet"):
+        assert read_table(tmp_path / name)["wall"].tolist() == ["-x", "+z"]
 
 
 @settings(deadline=None, max_examples=50)

@@ -4,12 +4,11 @@ import os
 
 import pytest
 
-FIGURES = {"figures", "report"}
+FIGURES = {"packing_figures", "fit_figures", "report"}
 MODEL = {"thermodynamics", "comparison"} | FIGURES
 SPLIT = {"energy_split"} | MODEL
-BINS = {"branch_lengths", "convergence", "verdict"} | SPLIT
-LOADING = {"compression", "certificate"} | BINS
-PACKING = {"packing", "grading"} | LOADING
+BINS = {"branch_lengths", "verdict"} | SPLIT
+PACKING = {"compression", "grading", "certificate"} | BINS
 
 
 @pytest.fixture
@@ -31,9 +30,9 @@ def test_a_second_run_does_nothing(study):
         ("figures:", "thermodynamics: {critical_energy: 3.0e5}\nfigures:", MODEL),
         ("figures:", "energy_split: {confidence: 0.9}\nfigures:", SPLIT),
         ("figures:", "energy_split: {bins: 15}\nfigures:", BINS),
-        # How well grains stand for a grading is judged at the end of the loading.
-        ("states: 12", "states: 8", LOADING | {"grading"}),
-        ("    grains", "    contact: {law: linear, normal_stiffness: 2.0e6}\n    grains", LOADING),
+        # The job that compresses a packing makes it.
+        ("states: 12", "states: 8", PACKING),
+        ("    grains", "    contact: {law: linear, normal_stiffness: 2.0e6}\n    grains", PACKING),
         ("grains: 60", "grains: 50", PACKING),
     ],
 )
@@ -46,11 +45,12 @@ def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules)
 @pytest.mark.parametrize(
     ("file", "rules"),
     [
-        ("src/branchcrush/plotting/energy.py", FIGURES),
+        ("src/branchcrush/plotting/energy.py", {"fit_figures", "report"}),
+        ("src/branchcrush/plotting/loading.py", {"packing_figures", "report"}),
         ("src/branchcrush/thermodynamics.py", MODEL),
-        ("src/branchcrush/loading_path.py", LOADING),
+        ("src/branchcrush/loading_path.py", PACKING),
         ("src/branchcrush/packing.py", PACKING),
-        ("lammps_inputs/mod.relax", LOADING),
+        ("lammps_inputs/mod.relax", PACKING),
         ("workflow/report/report.html.jinja", {"report"}),
     ],
 )

@@ -9,7 +9,7 @@ import pytest
 from matplotlib import image
 
 from branchcrush.summary import summary
-from branchcrush.tables import read_json, read_table
+from branchcrush.tables import read_json, read_packing, read_table
 
 SEEDS = (3, 5)
 FIGURES = (
@@ -175,7 +175,9 @@ def test_the_first_seed_is_run_again_with_twice_the_steps_from_the_same_packing(
     steps = [len(read_table(folder / "steps.csv")) - 1 for folder in (sample / "seed_3", again)]
     # Between two states there are whole steps.
     assert 1.5 * steps[0] < steps[1] <= 2 * steps[0]
-    assert not (again / "packing.npz").exists()
+    once, twice = (read_packing(folder / "packing.npz") for folder in (sample / "seed_3", again))
+    for made, made_again in zip(once, twice, strict=True):
+        assert np.array_equal(made, made_again)
 
 
 def test_the_grading_is_judged_before_and_after_it_is_drawn(sample):

@@ -14,8 +14,6 @@ rule branch_lengths:
         statistics="results/{sample}/branch_lengths.json",
     log:
         "logs/{sample}/branch_lengths.log",
-    benchmark:
-        "logs/{sample}/branch_lengths.time"
     conda:
         "../envs/branchcrush.yaml"
     params:

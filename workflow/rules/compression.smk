@@ -1,12 +1,10 @@
-# Compression: a loose packing and its loading -> states, contacts and dumps along the path.
+# Compression: grading, grains, seed and loading -> a loose packing, and states, contacts and dumps
+# along its path. One job a seed: to place the grains takes less than to start one.
 
 
 rule compression:
     input:
-        # The same packing for the run with twice the strain steps.
-        packing=lambda wildcards: "results/{}/seed_{}/packing.npz".format(
-            wildcards.sample.removesuffix(REFINED), wildcards.seed
-        ),
+        data=data_files,
         inputs=[
             f"{workflow.basedir}/lammps_inputs/{file}"
             for file in (
@@ -31,6 +29,8 @@ rule compression:
         ],
         code=code("compression"),
     output:
+        packing="results/{sample}/seed_{seed}/packing.npz",
+        data="results/{sample}/seed_{seed}/packing.data",
         path="results/{sample}/seed_{seed}/path.csv",
         steps="results/{sample}/seed_{seed}/steps.csv",
         contacts="results/{sample}/seed_{seed}/contacts.parquet",
@@ -39,11 +39,20 @@ rule compression:
         pairs="results/{sample}/seed_{seed}/pairs.dump.gz",
     log:
         "logs/{sample}/seed_{seed}/compression.log",
-    benchmark:
-        "logs/{sample}/seed_{seed}/compression.time"
+    # Twice the strain steps take twice as long: begun first, they keep no core waiting at the end.
+    priority: lambda wildcards: int(wildcards.sample in REFINED_SAMPLES)
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("boundary", "contact", "initial_solid_fraction", "loading", "strain_step"),
+        sample=section(
+            "grading",
+            "sampling",
+            "grains",
+            "boundary",
+            "initial_solid_fraction",
+            "contact",
+            "loading",
+            "strain_step",
+        ),
     script:
         "../scripts/compression.py"

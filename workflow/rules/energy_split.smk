@@ -15,8 +15,8 @@ rule energy_split:
         path="results/{sample}/energy_split_path.csv",
     log:
         "logs/{sample}/energy_split.log",
-    benchmark:
-        "logs/{sample}/energy_split.time"
+    # The model and its figures, the longest chain, wait for it.
+    priority: 1
     conda:
         "../envs/branchcrush.yaml"
     params:

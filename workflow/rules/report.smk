@@ -1,27 +1,20 @@
 # Report: results of every sample -> figures, one table of all samples, and the page to open.
 
-FIGURES = [
-    "fig3_grading",
-    "fig4_packing",
+# Of the packings, and of what is fitted to them.
+PACKING_FIGURES = ["fig3_grading", "fig4_packing", "loading_path", "certificate"]
+FIT_FIGURES = [
     "fig5_energy_split",
     "fig6_cubic",
     "fig7_branch_lengths",
     "exponent_path",
-    "loading_path",
-    "certificate",
     "crushing_model",
 ]
+FIGURES = PACKING_FIGURES + FIT_FIGURES
 
 
-rule figures:
+rule packing_figures:
     input:
         grading="results/{sample}/grading.csv",
-        split="results/{sample}/energy_split.csv",
-        fit="results/{sample}/energy_split.json",
-        split_path="results/{sample}/energy_split_path.csv",
-        lengths="results/{sample}/branch_lengths.csv",
-        statistics="results/{sample}/branch_lengths.json",
-        curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
         states="results/{sample}/certificate.csv",
         certificate="results/{sample}/certificate.json",
@@ -30,20 +23,42 @@ rule figures:
         paths=of_all_seeds("path.csv"),
         packings=of_all_seeds("packing.npz"),
         particles=of_all_seeds("particles.dump.gz"),
-        code=code("figures"),
+        code=code("packing_figures"),
     output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in FIGURES},
+        **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
     log:
-        "logs/{sample}/figures.log",
-    benchmark:
-        "logs/{sample}/figures.time"
+        "logs/{sample}/packing_figures.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        sample=section("grading", "contact"),
+        sample=section("grading"),
         dpi=SETTINGS.figures.dpi,
     script:
-        "../scripts/figures.py"
+        "../scripts/packing_figures.py"
+
+
+rule fit_figures:
+    input:
+        split="results/{sample}/energy_split.csv",
+        fit="results/{sample}/energy_split.json",
+        split_path="results/{sample}/energy_split_path.csv",
+        lengths="results/{sample}/branch_lengths.csv",
+        statistics="results/{sample}/branch_lengths.json",
+        curves="results/{sample}/thermodynamics.csv",
+        summary="results/{sample}/thermodynamics.json",
+        data=data_files,
+        code=code("fit_figures"),
+    output:
+        **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
+    log:
+        "logs/{sample}/fit_figures.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/fit_figures.py"
 
 
 rule comparison:
@@ -56,8 +71,6 @@ rule comparison:
         "results/comparison.csv",
     log:
         "logs/comparison.log",
-    benchmark:
-        "logs/comparison.time"
     conda:
         "../envs/branchcrush.yaml"
     params:
@@ -69,7 +82,6 @@ rule comparison:
 rule report:
     input:
         template=f"{workflow.basedir}/workflow/report/report.html.jinja",
-        comparison="results/comparison.csv",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
@@ -81,8 +93,6 @@ rule report:
         "results/report.html",
     log:
         "logs/report.log",
-    benchmark:
-        "logs/report.time"
     conda:
         "../envs/branchcrush.yaml"
     params:

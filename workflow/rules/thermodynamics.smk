@@ -13,8 +13,8 @@ rule thermodynamics:
         summary="results/{sample}/thermodynamics.json",
     log:
         "logs/{sample}/thermodynamics.log",
-    benchmark:
-        "logs/{sample}/thermodynamics.time"
+    # The model and its figures, the longest chain, wait for it.
+    priority: 1
     conda:
         "../envs/branchcrush.yaml"
     params:

@@ -1,18 +1,33 @@
-"""Compress one packing in LAMMPS."""
+"""Draw the radii of a seed, place the grains at random, and compress them in LAMMPS."""
 
 from pathlib import Path
 
+import numpy as np
+
 from branchcrush.contact_law import contact_law
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
+from branchcrush.lammps_files import write_data_file
+from branchcrush.packing import cube_edge, random_packing
+from branchcrush.sampling import sampled_radii
 from branchcrush.simulation import compress, compression_variables
-from branchcrush.tables import provenance, read_packing, write_table
+from branchcrush.tables import provenance, write_packing, write_table
 
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)
-    positions, radii, edge = read_packing(snakemake.input.packing)
+    output, fraction = snakemake.output, sample["initial_solid_fraction"]
+    origin = provenance(sample=snakemake.wildcards.sample, seed=seed, config=sample)
+
+    rng = np.random.default_rng(seed)
+    radii = sampled_radii(grading_of(sample["grading"]), sample["grains"], sample["sampling"], rng)
+    edge, periodic = cube_edge(radii, fraction), sample["boundary"] == "periodic"
+    positions = random_packing(radii, edge, periodic=periodic, rng=rng)
+    write_packing(output.packing, positions, radii, edge, origin)
+    write_data_file(output.data, positions, radii, edge)
+
     variables = compression_variables(
         radii,
-        sample["initial_solid_fraction"],
+        fraction,
         boundary=sample["boundary"],
         law=contact_law(**sample["contact"]),
         loading=sample["loading"],
@@ -24,9 +39,8 @@ with job(snakemake.log[0]):
         edge,
         variables,
         inputs=Path(snakemake.input.inputs[0]).parent,
-        folder=Path(snakemake.output.path).parent,
+        folder=Path(output.path).parent,
         log=snakemake.log[0],
     )
-    origin = provenance(sample=snakemake.wildcards.sample, seed=seed, config=sample)
     for name, table in result._asdict().items():
-        write_table(snakemake.output[name], table, origin)
+        write_table(output[name], table, origin)

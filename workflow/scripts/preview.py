@@ -8,12 +8,13 @@ from branchcrush.contact_law import contact_law
 from branchcrush.grading_files import grading_of
 from branchcrush.gradings import grading_table, ultimate_grading
 from branchcrush.jobs import job
+from branchcrush.lammps_run import declared_variables
 from branchcrush.packing import cube_edge, random_packing
 from branchcrush.plotting.distributions import plot_grading
 from branchcrush.plotting.style import figure
 from branchcrush.preview import preview_text, sample_plan
 from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compression_variables, declared_variables, trial
+from branchcrush.simulation import compression_variables, trial
 from branchcrush.tables import write_text
 
 # A trial of more grains would take longer than it tells.

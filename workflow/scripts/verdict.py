@@ -1,20 +1,34 @@
-"""Say whether the sample is certified, and why or why not."""
+"""Compare the first seeds with themselves at twice the strain steps, and judge the sample."""
 
+from branchcrush.branches import ENERGY_COLUMNS, state_sums
 from branchcrush.certificate import sample_certificate
+from branchcrush.convergence import convergence_table
+from branchcrush.energy_split import bin_edges
+from branchcrush.ensemble import end_of_loading
+from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_json, read_table, write_json
+from branchcrush.tables import provenance, read_json, read_table, write_json, write_table
 from branchcrush.unloading import unloading_summary
 
 with job(snakemake.log[0]):
-    files = snakemake.input
-    paths, jamming = [read_table(path) for path in files.paths], read_table(files.jamming)
+    sample, files = snakemake.params.sample, snakemake.input
+    edges = bin_edges(*grading_of(sample["grading"]).support(), snakemake.params.bins)
+    states, jamming = read_table(files.states), read_table(files.jamming)
+    all_paths = [read_table(path) for path in files.all_paths]
+    runs = []
+    for run in ("", "refined_"):
+        paths = [read_table(path) for path in files[f"{run}paths"]]
+        sums = [
+            state_sums(read_table(table, ENERGY_COLUMNS), end_of_loading(path)["state"], edges)
+            for path, table in zip(paths, files[f"{run}contacts"], strict=True)
+        ]
+        runs.append((paths, sums))
+    refined = [read_table(path) for path in files.refined_states]
+    convergence = convergence_table([states, *refined] if refined else [], *runs)
     certificate = sample_certificate(
-        read_table(files.states),
-        paths,
-        jamming,
-        read_table(files.convergence),
-        read_json(files.grading),
+        states, all_paths, jamming, convergence, read_json(files.grading)
     )
-    certificate["unloading"] = unloading_summary(paths, jamming)
-    origin = provenance(sample=snakemake.wildcards.sample, config=snakemake.params.sample)
-    write_json(snakemake.output[0], certificate, origin)
+    certificate["unloading"] = unloading_summary(all_paths, jamming)
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_table(snakemake.output.convergence, convergence, origin)
+    write_json(snakemake.output.certificate, certificate, origin)

@@ -1,0 +1,27 @@
+# Grading: the packings of all seeds -> the grading they realise, beside the target and the ultimate.
+
+
+rule grading:
+    input:
+        packings=of_all_seeds("packing.npz"),
+        data=data_files,
+        code=code("grading"),
+    output:
+        table="results/{sample}/grading.csv",
+        summary="results/{sample}/grading.json",
+    log:
+        "logs/{sample}/grading.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        sample=section(
+            "grading",
+            "sampling",
+            "grains",
+            "loading",
+            "initial_solid_fraction",
+            "allow_unrepresentative",
+        ),
+        ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
+    script:
+        "../scripts/grading.py"
