@@ -114,6 +114,7 @@ class Sample(Section):
     loading: Loading
     seeds: list[number(int, least=0, most=2**32 - 1)] = Field(description=_SEEDS.allowed)
     refined_seeds: number(int, least=0, most=_MOST_SEEDS) = 4
+    ranks: number(int, least=1, most=1024, unit="processes") = 1
 
     @field_validator("loading")
     @classmethod

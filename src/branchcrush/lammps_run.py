@@ -162,7 +162,10 @@ def main(folder):
     script, arguments = json.loads((folder / "job.json").read_text(encoding="utf-8"))
     result = _run(Path(script), arguments)
     if result["rank"] == 0 or result["error"]:
-        (folder / "result.json").write_text(json.dumps(result), encoding="utf-8")
+        own = folder / f"result-{result['rank']}.json"
+        own.write_text(json.dumps(result), encoding="utf-8")
+        # All may fail alike: a file that is there is whole.
+        own.replace(folder / "result.json")
     if result["error"]:
         # Other ranks may wait for this one: an exception ends them all.
         raise SimulationError(result["error"])

@@ -11,11 +11,10 @@ from branchcrush.loading import (
 )
 from branchcrush.representativity import representativity
 
-# Force evaluations of a packing of 1000 grains: for each strain step, and more for each saved
-# state. From the table of docs/quality.md; a packing may need half or twice as many.
-_STEP, _STATE = 400.0, 2600.0
-# Over the same to a strain: a stress close to jamming is sought where relaxation is slow.
-_STRESS = 2.5
+# Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
+# to strains and to stresses: a stress is sought among packings at rest. A packing may need half or
+# twice as many.
+_TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
 # Grains between which a strain has to travel: evaluations grow about so with their number.
 _GROWTH = 1.0 / 3.0
 # Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
@@ -28,6 +27,7 @@ class Plan(NamedTuple):
 
     grains: int
     seeds: int
+    ranks: int
     first_edge: float  # [m]
     last_edge: float  # [m]
     smallest_diameter: float  # [m]
@@ -71,14 +71,14 @@ def sample_plan(sample, refined, grading, law, seconds_per_grain):
                 f"{_FLAGGED_OVERLAP:.0%}; ask for less stress or raise the stiffness"
             )
     steps, states = planned_steps(loading, start, sample["strain_step"], overlap)
-    evaluations = (_STEP * steps + _STATE * states) * (grains / 1000.0) ** _GROWTH
-    if loading["target"] == "mean_stress":
-        evaluations *= _STRESS
+    step, state = _TO_STRESS if loading["target"] == "mean_stress" else _TO_STRAIN
+    evaluations = (step * steps + state * states) * (grains / 1000.0) ** _GROWTH
     packings = len(sample["seeds"]) + 2.0 * refined
     summary = grading_summary(grading)
     return Plan(
         grains=grains,
         seeds=len(sample["seeds"]),
+        ranks=sample["ranks"],
         first_edge=(solid / start) ** (1.0 / 3.0),
         last_edge=(solid / end) ** (1.0 / 3.0),
         smallest_diameter=summary["D_min_m"],
@@ -108,8 +108,7 @@ def preview_text(plans, cores, time_step):
     """
     lines, longest = [], 0.0
     for name, plan in plans.items():
-        # A packing runs on one core.
-        minutes = plan.seconds / 60.0 / min(cores, plan.seeds)
+        minutes = plan.seconds / 60.0 / min(cores, plan.seeds * plan.ranks)
         longest = max(longest, minutes)
         lines += [
             f"{name}",

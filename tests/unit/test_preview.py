@@ -25,6 +25,7 @@ def plan_of(grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, **loadi
         "loading": {**LOADING, **loading},
         "strain_step": 1.7e-3,
         "seeds": list(range(seeds)),
+        "ranks": 1,
     }
     return sample_plan(sample, refined, grading or single(1e-3), LAW, seconds)
 
@@ -32,7 +33,7 @@ def plan_of(grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, **loadi
 def test_evaluations_and_time_of_a_thousand_grains_are_those_of_their_steps_and_states():
     plan = plan_of()
     # 60 strain steps and 15 states.
-    assert plan.force_evaluations == pytest.approx(60 * 400 + 15 * 2600)
+    assert plan.force_evaluations == pytest.approx(60 * 70 + 15 * 2000)
     assert plan.seconds == pytest.approx(4 * plan.force_evaluations * 1000 * 1e-7)
 
 
@@ -48,7 +49,7 @@ def test_refined_seed_counts_twice():
 
 def test_way_back_takes_the_steps_again():
     there, back = plan_of(), plan_of(unloading=True)
-    assert back.force_evaluations - there.force_evaluations == pytest.approx(60 * 400 + 14 * 2600)
+    assert back.force_evaluations - there.force_evaluations == pytest.approx(60 * 70 + 14 * 2000)
 
 
 def test_edges_are_those_of_the_solid_volume():
@@ -124,6 +125,11 @@ def test_one_packing_runs_on_one_core():
     plan = plan_of(seeds=1)._replace(seconds=600.0)
     text = written(plan, cores=8)
     assert text.count("about 10.0 minutes on 8 core(s)") == 2
+
+
+def test_the_ranks_of_one_packing_share_the_cores():
+    plan = plan_of(seeds=1)._replace(seconds=600.0, ranks=4)
+    assert written(plan, cores=8).count("about 2.5 minutes on 8 core(s)") == 2
 
 
 def test_plan_is_a_row_of_plain_values():

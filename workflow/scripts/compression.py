@@ -16,7 +16,8 @@ from branchcrush.tables import provenance, write_packing, write_table
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)
     output, fraction = snakemake.output, sample["initial_solid_fraction"]
-    origin = provenance(sample=snakemake.wildcards.sample, seed=seed, config=sample)
+    name, ranks = snakemake.wildcards.sample, snakemake.threads
+    origin = provenance(sample=name, seed=seed, ranks=ranks, config=sample)
 
     rng = np.random.default_rng(seed)
     radii = sampled_radii(grading_of(sample["grading"]), sample["grains"], sample["sampling"], rng)
@@ -41,6 +42,7 @@ with job(snakemake.log[0]):
         inputs=Path(snakemake.input.inputs[0]).parent,
         folder=Path(output.path).parent,
         log=snakemake.log[0],
+        ranks=ranks,
     )
     for name, table in result._asdict().items():
         write_table(output[name], table, origin)
