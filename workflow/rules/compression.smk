@@ -41,10 +41,10 @@ rule compression:
         "logs/{sample}/seed_{seed}/compression.log",
     # Twice the strain steps take twice as long: begun first, they keep no core waiting at the end.
     priority: lambda wildcards: int(wildcards.sample in REFINED_SAMPLES)
-    # MPI processes that share one packing; no more than there are cores.
-    threads: lambda wildcards: sample_of(wildcards)["ranks"]
     conda:
         "../envs/branchcrush.yaml"
+    # MPI processes that share one packing; no more than there are cores.
+    threads: lambda wildcards: sample_of(wildcards)["ranks"]
     params:
         sample=section(
             "grading",
