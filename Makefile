@@ -2,9 +2,11 @@
 #
 #   PYTHON  the interpreter that the environment is made from (3.11 or newer)
 #   CORES   how many cores the study and the tests may use
+#   PART    what `make bench` measures: one part of benchmarks/, or all
 
 PYTHON ?= python3
 CORES ?= 2
+PART ?= all
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -18,7 +20,7 @@ unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality publish test lint lock clean
+.PHONY: help run preview example gallery quality bench publish test lint lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -56,6 +58,9 @@ quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.cs
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
 	$(MADE) > docs/results/quality_made.txt
+
+bench: $(READY) ## what it takes, beside other codes too: benchmarks/results/, on an idle machine
+	$(IN_ENVIRONMENT) python -m benchmarks $(PART)
 
 publish: run ## the figures and tables that README and docs show, from this run
 	mkdir -p docs/figures docs/results

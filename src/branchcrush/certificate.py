@@ -63,7 +63,7 @@ def state_certificates(seeds, paths):
         work = path["work_J"].where(path["work_J"] > 0)
         measures = pd.DataFrame(
             {
-                "unbalanced_force_ratio": path["unbalanced_force_ratio"],
+                "unbalanced_force_ratio": path["unbalanced_force_ratio"].where(loaded),
                 "inertial_number": path["inertial_number"],
                 "stress_identity_error": (path["mean_stress_Pa"] / boundary - 1.0).abs(),
                 "contact_law_error": path["contact_law_error"],

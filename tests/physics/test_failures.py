@@ -79,7 +79,8 @@ def test_every_misspelt_variable_is_named(failure):
 
 
 def test_a_state_that_does_not_come_to_rest_tells_how_far_it_is_from_rest(stopped):
-    run, reason = stopped(largest_relaxation=20, state_tolerance=1e-15)
+    # A floor so low that the packing carries load before it is loaded.
+    run, reason = stopped(largest_relaxation=20, state_tolerance=1e-15, force_floor=1e-30)
     assert "not at rest after 20 force evaluations: unbalanced force ratio " in reason
     assert reason.endswith("wanted 1e-15")
     # It stopped on the approach: there is the packing, and no strain step that counts.
@@ -174,7 +175,8 @@ def test_overlapping_grains_are_not_a_packing_at_rest(compressed, tmp_path):
     positions, radii, edge = PAIR
     path = compressed(([positions[0], [0.0, 0.0, 0.0]], radii, edge), tmp_path, **LOADING).path
     assert path["unbalanced_force_ratio"].iloc[0] > 0.1
-    assert (path["unbalanced_force_ratio"].iloc[1:] <= 1e-7).all()
+    rest = path.iloc[1:]
+    assert (rest["unbalanced_force_ratio"] <= np.where(rest["carries_load"], 1e-7, 1e-3)).all()
 
 
 def test_a_script_that_is_missing_is_named(failure, lammps_inputs, tmp_path):

@@ -209,7 +209,10 @@ def test_the_forces_found_from_the_positions_balance_on_every_grain(searched):
 
 
 def test_every_saved_state_is_at_rest(packing):
-    assert (packing[0].path["unbalanced_force_ratio"] <= 1e-6).all()
+    path = packing[0].path
+    limit = np.where(path["carries_load"], 1e-6, 1e-3)
+    assert (path["unbalanced_force_ratio"] <= limit).all()
+    assert path["carries_load"].sum() > 2
 
 
 def test_stress_of_the_branches_is_that_of_the_boundary(packing):
@@ -341,7 +344,8 @@ def test_the_steps_agree_with_the_states(packing):
     for name in ("force_evaluations", "volume_m3", "work_J"):
         np.testing.assert_array_equal(at_states[name], path[name])
     for name in ("solid_fraction", "mean_stress_Pa", "unbalanced_force_ratio"):
-        np.testing.assert_allclose(at_states[name], path[name], rtol=1e-12, atol=1e-12)
+        scale = path[name].max()
+        np.testing.assert_allclose(at_states[name], path[name], rtol=1e-12, atol=1e-12 * scale)
     counted = run.contacts["state"].value_counts().reindex(path["state"], fill_value=0)
     assert at_states["contacts"].tolist() == counted.tolist()
     strain = -np.diff(np.log(steps["volume_m3"])) / 3.0
