@@ -61,6 +61,7 @@ quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.cs
 
 bench: $(READY) ## what it takes, beside other codes too: benchmarks/results/, on an idle machine
 	$(IN_ENVIRONMENT) python -m benchmarks $(PART)
+	$(IN_ENVIRONMENT) python -m benchmarks.figure
 
 publish: run ## the figures and tables that README and docs show, from this run
 	mkdir -p docs/figures docs/results

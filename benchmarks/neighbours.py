@@ -20,15 +20,13 @@ LOADED_ALIKE = {"single": 0.66, "normal": 0.68, "lognormal": 0.68}
 FORMS = (
     "single",
     "uniform",
-    "normal",
     "lognormal",
     "loguniform 10",
-    "loguniform 40",
     "fractal 5",
     "fractal 20",
     "bidisperse",
 )
-LARGE = ("fractal 20", "uniform", "lognormal")
+LARGE = ("fractal 20",)
 SKINS, COLLECTIONS = (0.15, 0.3, 0.6), (2, 3, 4, 6)
 # Of a measurement: a hundred for each of its strain steps, about as many as in a loading.
 EVALUATIONS = 300
@@ -43,7 +41,7 @@ ODD = {
 
 def run(
     forms=FORMS,
-    sizes=(1000, 5000),
+    sizes=(500, 2000, 8000),
     large=LARGE,
     large_sizes=(20000,),
     repeats=3,
