@@ -54,7 +54,7 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
 	$(MADE) > docs/results/gallery_made.txt
 
-quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, half an hour on 2 cores
+quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, a quarter of an hour
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
 	$(MADE) > docs/results/quality_made.txt
