@@ -121,6 +121,7 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     phi = np.linspace(0.55, _LAST, 200)
     stress = path[-1]["mean_stress_Pa"] / (_LAST - _JAMMING) * np.maximum(phi - _JAMMING, 0.0)
     steps = {"step": np.arange(200), "solid_fraction": phi, "mean_stress_Pa": stress}
+    steps["unbalanced_force_ratio"] = np.full(200, 1e-2)
     write_table(folder / "steps.csv", steps, origin)
     last = tables[-1]
     return 1.0 / (np.log(last["radius_i_m"] + last["radius_j_m"]).std() * np.sqrt(len(last)))

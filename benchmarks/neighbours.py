@@ -20,13 +20,15 @@ LOADED_ALIKE = {"single": 0.66, "normal": 0.68, "lognormal": 0.68}
 FORMS = (
     "single",
     "uniform",
+    "normal",
     "lognormal",
     "loguniform 10",
+    "loguniform 40",
     "fractal 5",
     "fractal 20",
     "bidisperse",
 )
-LARGE = ("fractal 20",)
+LARGE = ("fractal 20", "uniform", "lognormal")
 SKINS, COLLECTIONS = (0.15, 0.3, 0.6), (2, 3, 4, 6)
 # Of a measurement: a hundred for each of its strain steps, about as many as in a loading.
 EVALUATIONS = 300
@@ -41,7 +43,7 @@ ODD = {
 
 def run(
     forms=FORMS,
-    sizes=(500, 2000, 8000),
+    sizes=(1000, 5000),
     large=LARGE,
     large_sizes=(20000,),
     repeats=3,

@@ -7,8 +7,6 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import csv
 
-PARTICLE_COLUMNS = ("id", "type", "radius", "x", "y", "z", "fx", "fy", "fz")
-WALL_COLUMNS = ("v_wall_fx", "v_wall_fy", "v_wall_fz")
 _ROWS_AT_ONCE = 10_000
 _HEADER_LINES = 9
 _BUFFER = 2**20  # [bytes]

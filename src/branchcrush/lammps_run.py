@@ -3,6 +3,7 @@
 import contextlib
 import ctypes
 import json
+import os
 import re
 import shutil
 import signal
@@ -64,10 +65,10 @@ def run_script(script, variables, log, ranks=1):
     for name, value in variables.items():
         arguments += ["-var", name, *_words(value)]
     if ranks == 1:
-        result = _run(script, arguments)
+        result = _run(script, arguments, ranks)
     else:
         with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
-            result = _run_on_ranks(script, arguments, ranks, Path(folder))
+            result = _run_on_ranks(script, arguments, ranks, Path(folder), log)
     with open(log, "a", encoding="utf-8") as file:
         file.write(f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
     if result["error"]:
@@ -75,14 +76,19 @@ def run_script(script, variables, log, ranks=1):
     return result["stopped"]
 
 
-def _run(script, arguments):
+def _run(script, arguments, ranks):
     """Run a script in this process; an error of LAMMPS is part of what is returned."""
     lammps, stopped, problem, seconds, rank = None, "", "", 0.0, 0
     try:
         library = load_lammps()
         start = time.perf_counter()
         lammps = library(cmdargs=arguments)
-        rank = lammps.extract_setting("world_rank")
+        rank, world = (lammps.extract_setting(f"world_{what}") for what in ("rank", "size"))
+        if world != ranks:  # each would run alone, and write over the others
+            raise RuntimeError(
+                f"{ranks} ranks were asked for, and this mpiexec gives LAMMPS a world of {world}: "
+                "it belongs to another MPI; install mpich into this Python, or use ranks: 1"
+            )
         with _interruptible():
             lammps.file(str(script))
         if int(lammps.extract_variable("failed")):
@@ -91,20 +97,21 @@ def _run(script, arguments):
     except SimulationError:
         raise
     except Exception as error:  # LAMMPS raises plain exceptions
-        problem = str(error).strip().splitlines()[0]
+        problem = (str(error).strip() or type(error).__name__).splitlines()[0]
     finally:
         if lammps is not None:
-            lammps.close()
+            # Others may wait for a rank that failed: it must not wait for them.
+            if ranks == 1 or not problem:
+                lammps.close()
             seconds = time.perf_counter() - start
     return {"rank": rank, "stopped": stopped, "error": problem, "seconds": seconds}
 
 
-def _run_on_ranks(script, arguments, ranks, folder):
+def _run_on_ranks(script, arguments, ranks, folder, log):
     """Run a script over MPI ranks; the first of them leaves the result in a file."""
-    (folder / "job.json").write_text(json.dumps([str(script), arguments]), encoding="utf-8")
-    # The launcher that belongs to the MPI of this interpreter's LAMMPS lies beside it.
-    beside = Path(sys.executable).with_name("mpiexec")
-    launcher = str(beside) if beside.exists() else shutil.which("mpiexec")
+    job = [str(script), arguments, ranks]
+    (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
+    launcher = _launcher()
     if launcher is None:
         raise SimulationError(
             f"{ranks} ranks were asked for, and there is no mpiexec: install the package mpich "
@@ -112,24 +119,42 @@ def _run_on_ranks(script, arguments, ranks, folder):
         )
     # mpi4py ends all ranks when one of them fails.
     command = [launcher, "-n", str(ranks), sys.executable, "-m", "mpi4py", "-m", __name__, folder]
+    # All ranks are this job's, on this machine, also inside a Slurm allocation.
+    environment = {name: v for name, v in os.environ.items() if not name.startswith("SLURM_")}
+    _end_with_parent()
     process = subprocess.Popen(
         [str(word) for word in command],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
+        env={**environment, "HYDRA_LAUNCHER": "fork"},
         preexec_fn=_end_with_parent,
     )
     try:
         output, _ = process.communicate()
     except BaseException:
+        # Not before it has ended is there nobody who writes to the scratch folders.
         process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=10)
+        process.kill()
         raise
     result = folder / "result.json"
     if not result.exists():
-        said = output.strip().splitlines()
-        raise SimulationError(f"LAMMPS stopped on {ranks} ranks: {said[-1] if said else 'killed'}")
+        with open(log, "a", encoding="utf-8") as file:
+            file.write(output)
+        raise SimulationError(
+            f"LAMMPS ended on {ranks} ranks without a result, exit code {process.returncode}: was "
+            f"one killed, for want of memory? (log: {log})"
+        )
     return json.loads(result.read_text(encoding="utf-8"))
+
+
+def _launcher():
+    # That which belongs to the MPI of this interpreter's LAMMPS lies beside it.
+    beside = Path(sys.executable).with_name("mpiexec")
+    return str(beside) if beside.exists() else shutil.which("mpiexec")
 
 
 def _words(value):
@@ -159,8 +184,8 @@ def _interruptible():
 def main(folder):
     """Run the job of a folder on this rank, of all that were started for it."""
     folder = Path(folder)
-    script, arguments = json.loads((folder / "job.json").read_text(encoding="utf-8"))
-    result = _run(Path(script), arguments)
+    script, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
+    result = _run(Path(script), arguments, ranks)
     if result["rank"] == 0 or result["error"]:
         own = folder / f"result-{result['rank']}.json"
         own.write_text(json.dumps(result), encoding="utf-8")

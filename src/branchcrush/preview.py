@@ -85,7 +85,7 @@ def sample_plan(sample, refined, grading, law, seconds_per_grain):
         largest_diameter=summary["D_max_m"],
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
-        memory=_BASE + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
+        memory=_BASE * sample["ranks"] + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
         warnings=warnings,
     )
 
@@ -108,7 +108,12 @@ def preview_text(plans, cores, time_step):
     """
     lines, longest = [], 0.0
     for name, plan in plans.items():
-        minutes = plan.seconds / 60.0 / min(cores, plan.seeds * plan.ranks)
+        # Ranks of a packing keep as many cores busy, as many packings at a time as fit.
+        ranks = min(plan.ranks, cores)
+        minutes = plan.seconds / 60.0 / min(cores // ranks * ranks, plan.seeds * ranks)
+        if plan.ranks > cores:
+            warning = f"ranks {plan.ranks}, and {cores} core(s): {cores} are started"
+            plan = plan._replace(warnings=[*plan.warnings, warning])
         longest = max(longest, minutes)
         lines += [
             f"{name}",

@@ -85,6 +85,32 @@ def test_the_dumps_of_two_ranks_hold_every_grain_and_each_contact_once(on_ranks)
     assert (pairs[:, 0] < pairs[:, 1]).all()
 
 
+def test_ranks_are_those_of_this_machine_in_a_slurm_allocation(
+    tmp_path, lammps_inputs, monkeypatch
+):
+    for name, value in (
+        ("SLURM_JOB_ID", "1"),
+        ("SLURM_JOBID", "1"),
+        ("SLURM_NODELIST", "elsewhere[1-2]"),
+        ("SLURM_NNODES", "2"),
+        ("SLURM_TASKS_PER_NODE", "1(x2)"),
+    ):
+        monkeypatch.setenv(name, value)
+    run = loaded(np.full(30, 1e-3), tmp_path / "run", lammps_inputs, boundary="walls", ranks=2)
+    assert run.path["stopped"][-1] == ""
+    assert "on 2 procs" in (tmp_path / "run.log").read_text()
+
+
+def test_an_mpiexec_of_another_mpi_is_told(tmp_path, lammps_inputs, monkeypatch):
+    # One that starts its processes, and joins them in no world.
+    other = tmp_path / "mpiexec"
+    other.write_text('#!/bin/sh\nshift 2\n"$@"\n')
+    other.chmod(0o755)
+    monkeypatch.setattr("branchcrush.lammps_run._launcher", lambda: str(other))
+    with pytest.raises(SimulationError, match="this mpiexec gives LAMMPS a world of 1"):
+        loaded(np.full(30, 1e-3), tmp_path / "run", lammps_inputs, boundary="walls", ranks=2)
+
+
 def test_an_error_on_two_ranks_is_one_message(tmp_path, lammps_inputs):
     with pytest.raises(SimulationError, match=r"LAMMPS stopped: .*stiffness"):
         loaded(

@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
 
+from branchcrush import certificate
 from branchcrush.certificate import (
     LIMITS,
     OVERLAP_FLAG,
@@ -12,6 +13,7 @@ from branchcrush.certificate import (
     sample_certificate,
     state_certificates,
 )
+from branchcrush.loading import STEP_UNBALANCED_FORCE_RATIO
 
 STRESS, WORK = 1e6, 2.0
 
@@ -161,6 +163,10 @@ def test_each_packing_jams_on_the_way_in_and_on_the_way_back():
     assert found["steps_loading"].tolist() == [8, 8]
     assert found["steps_unloading"].tolist() == [6, 0]
     assert not found["loaded_from_the_start"].any()
+
+
+def test_a_step_that_came_to_rest_as_far_as_it_was_asked_counts():
+    assert max(STEP_UNBALANCED_FORCE_RATIO.values()) == certificate._STEP_AT_REST
 
 
 def test_steps_that_went_on_before_they_came_to_rest_are_left_out():

@@ -87,6 +87,7 @@ def test_four_keys_of_a_sample_are_enough():
         "unloading": False,
     }
     assert (sample.loading.quality, sample.refined_seeds) == ("standard", 4)
+    assert sample.ranks == 1
     assert config.energy_split.model_dump() == {"bins": 20, "confidence": 0.95, "resamples": 2000}
     assert config.thermodynamics.ultimate_alpha == 2.6
     assert config.thermodynamics.hardening_exponent == 2.0
@@ -207,6 +208,8 @@ def test_quality_sets_the_strain_step(quality, step):
         ("samples.mine.seeds", [], "[]", "list"),
         ("samples.mine.seeds", [1, 1], "[1, 1]", "once"),
         ("samples.mine.refined_seeds", -1, "-1", "a whole number from 0"),
+        ("samples.mine.ranks", 0, "0 processes", "a whole number from 1 to 1024 processes"),
+        ("samples.mine.ranks", 1.5, "1.5 processes", "a whole number from 1 to 1024 processes"),
         ("samples.mine", None, "nothing", "a section"),
         ("samples", None, "nothing", "a section"),
         ("samples", [1], "[1]", "a section"),

@@ -132,6 +132,18 @@ def test_the_ranks_of_one_packing_share_the_cores():
     assert written(plan, cores=8).count("about 2.5 minutes on 8 core(s)") == 2
 
 
+def test_more_ranks_than_cores_are_warned_of():
+    plan = plan_of(seeds=1)._replace(seconds=600.0, ranks=8)
+    text = written(plan, cores=2)
+    assert "warning             ranks 8, and 2 core(s): 2 are started" in text
+    assert "about 5.0 minutes on 2 core(s)" in text
+
+
+def test_cores_that_no_packing_fits_on_stay_idle():
+    plan = plan_of(seeds=8)._replace(seconds=600.0, ranks=3)
+    assert "about 3.3 minutes on 4 core(s)" in written(plan, cores=4)
+
+
 def test_plan_is_a_row_of_plain_values():
     assert all(isinstance(value, int | float | list) for value in plan_of())
     assert isinstance(plan_of(), Plan)

@@ -40,6 +40,7 @@ def with_key(text, path, typed):
         ("initial_solid_fraction", "16", " = 16: must be a number above 0 and at most 0.4"),
         ("initial_solid_fraction", "-.inf", " = -inf: must be a number above 0 and at most 0.4"),
         ("refined_seeds", "-1", " = -1: must be a whole number from 0 to 1000"),
+        ("ranks", "0", " = 0 processes: must be a whole number from 1 to 1024 processes"),
         # Words.
         ("boundary", "wals", " = 'wals': must be 'walls' or 'periodic'; did you mean 'walls'?"),
         (

@@ -43,7 +43,8 @@ rule compression:
     priority: lambda wildcards: int(wildcards.sample in REFINED_SAMPLES)
     conda:
         "../envs/branchcrush.yaml"
-    # MPI processes that share one packing; no more than there are cores.
+    # MPI processes that share one packing; no more than there are cores. Not among the params: what
+    # is certified does not depend on them.
     threads: lambda wildcards: sample_of(wildcards)["ranks"]
     params:
         sample=section(
