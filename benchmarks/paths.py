@@ -1,12 +1,13 @@
 """Ways to the certified state that were tried, on the paper's case, against the shipped one."""
 
 import json
-import multiprocessing
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -117,8 +118,8 @@ def run(variants=VARIANTS, seeds=(1, 2, 3, 4, 5, 6, 7, 8), states=(1,), cores=CO
         name = "shipped" if boundary == "walls" else f"shipped, {boundary}"
         plan.setdefault((name, number), {"boundary": boundary, "states": number})
     calls = [(settings, seed) for settings in plan.values() for seed in seeds]
-    with multiprocessing.get_context("spawn").Pool(cores, maxtasksperchild=1) as pool:
-        results = iter(pool.starmap(_one, calls, chunksize=1))
+    with ThreadPoolExecutor(cores) as threads:
+        results = threads.map(_apart, calls)
     found = {key: {seed: next(results) for seed in seeds} for key in plan}
     rows = []
     for (name, number), settings in plan.items():
@@ -181,6 +182,14 @@ def quantities(done, radii):
     }
 
 
+def _apart(call):
+    """Return `_one` from a process of its own: LAMMPS keeps memory until its process ends."""
+    command = [sys.executable, "-m", "benchmarks.paths", "--one", json.dumps(call)]
+    root = Path(__file__).resolve().parents[1]
+    done = subprocess.run(command, cwd=root, check=True, capture_output=True, text=True)
+    return json.loads(done.stdout.splitlines()[-1])
+
+
 def _one(settings, seed):
     """Return the quantities of one seed on one way, with the sums for the exponent."""
     settings = dict(settings)
@@ -230,6 +239,8 @@ def _mean(values):
     return float(values.mean()), error
 
 
-if __name__ == "__main__":
+if __name__ == "__main__" and sys.argv[1:2] == ["--one"]:
+    print(json.dumps(_one(*json.loads(sys.argv[2]))))
+elif __name__ == "__main__":
     chosen = {name: VARIANTS[name] for name in sys.argv[1:]} or VARIANTS
     print(json.dumps(run(chosen), indent=2))
