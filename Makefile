@@ -12,7 +12,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-# Jobs of a workflow call `python` and `mpiexec` by name and must meet the environment's.
+# Jobs of a workflow call `python` by name and must meet the environment's.
 IN_ENVIRONMENT := PATH="$(CURDIR)/$(BIN):$$PATH"
 
 # Packages outside the lock must not be found.
@@ -119,4 +119,4 @@ lock: ## write requirements.lock anew from pyproject.toml
 
 clean: ## remove the environment and what the tools leave; results/ stays
 	rm -rf $(VENV) build .pytest_cache .ruff_cache .hypothesis src/*.egg-info
-	find src tests workflow -name __pycache__ -type d -prune -exec rm -rf {} +
+	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
