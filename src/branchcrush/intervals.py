@@ -1,0 +1,126 @@
+"""Confidence intervals from resampling whole seeds: packings are independent, branches are not."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Interval(NamedTuple):
+    """An estimate and its confidence interval; low and high are nan when there is none.
+
+    Numbers, or arrays of one shape when many quantities are estimated at once.
+    """
+
+    estimate: float | np.ndarray
+    low: float | np.ndarray
+    high: float | np.ndarray
+
+
+def seed_draws(seeds, resamples, rng):
+    """Return how often each seed is in each draw of S seeds with replacement.
+
+    Parameters
+    ----------
+    seeds : int
+        S.
+    resamples : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    ndarray of int, shape (resamples, S)
+
+    Examples
+    --------
+    >>> seed_draws(3, 4, np.random.default_rng(1)).sum(axis=1).tolist()
+    [3, 3, 3, 3]
+    """
+    return rng.multinomial(seeds, np.full(seeds, 1.0 / seeds), size=resamples)
+
+
+def interval_of_refits(estimate, refits, seeds, confidence=0.95):
+    r"""Return the interval of an estimate from those of draws of the seeds.
+
+    .. math:: \hat\theta \pm t_{S-1}\, s_\theta \sqrt{S/(S-1)}
+
+    s is the standard deviation of the refits. Student's t and the factor make up for how little
+    S seeds tell of their own scatter.
+
+    Parameters
+    ----------
+    estimate : float or array_like, shape (...)
+    refits : array_like, shape (resamples, ...)
+        nan where a draw has no estimate; left out.
+    seeds : int
+        S; with one seed the limits are nan.
+    confidence : float
+
+    Returns
+    -------
+    Interval
+
+    Examples
+    --------
+    >>> low, high = interval_of_refits(2.0, [1.0, 3.0], 5)[1:]
+    >>> round(high - 2.0, 3), round(2.0 - low, 3)
+    (4.39, 4.39)
+
+    References
+    ----------
+    Davison and Hinkley (1997), Bootstrap Methods and their Application, sections 2.3 and 3.8.
+    """
+    estimate, refits = np.asarray(estimate, dtype=float), np.asarray(refits, dtype=float)
+    if seeds == 1:
+        half = np.full(estimate.shape, np.nan)
+    else:
+        from scipy.special import stdtrit  # slow to import, and few jobs need it
+
+        known = np.isfinite(refits)
+        number = known.sum(axis=0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean = np.where(known, refits, 0.0).sum(axis=0) / number
+            squares = np.where(known, (refits - mean) ** 2, 0.0).sum(axis=0)
+            error = np.sqrt(squares / (number - 1.0) * seeds / (seeds - 1.0))
+        half = stdtrit(seeds - 1, (1.0 + confidence) / 2.0) * error
+    return Interval(*(_plain(value) for value in (estimate, estimate - half, estimate + half)))
+
+
+def pooled_interval(sums, statistic, *, confidence=0.95, resamples=2000, rng):
+    r"""Return a statistic of sums over all seeds, with its interval from resampling seeds.
+
+    .. math:: \hat\theta = T\Big(\sum_s x_s\Big)
+
+    A mean is a ratio of sums, so are the mean energies of bins, and what is fitted to them.
+
+    Parameters
+    ----------
+    sums : array_like, shape (S, ...)
+        x_s, what each seed adds.
+    statistic : callable
+        T: takes sums of shape (draws, ...) and returns one estimate, or an array of them, a draw.
+    confidence : float
+    resamples : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    Interval
+
+    Examples
+    --------
+    >>> heights = [[3.0, 2.0], [3.0, 2.0]]  # sum and number, of two seeds
+    >>> mean = pooled_interval(heights, lambda x: x[:, 0] / x[:, 1], rng=np.random.default_rng(1))
+    >>> tuple(mean)
+    (1.5, 1.5, 1.5)
+    """
+    sums = np.asarray(sums, dtype=float)
+    seeds = len(sums)
+    estimate = statistic(sums.sum(axis=0)[None])[0]
+    if seeds == 1:
+        return interval_of_refits(estimate, [], seeds, confidence)
+    drawn = np.tensordot(seed_draws(seeds, resamples, rng), sums, axes=1)
+    return interval_of_refits(estimate, statistic(drawn), seeds, confidence)
+
+
+def _plain(value):
+    return float(value) if np.ndim(value) == 0 else value
