@@ -220,7 +220,7 @@ def length_histogram(length, edges):
     return counts, counts / (max(counts.sum(), 1) * np.diff(edges))
 
 
-def branch_length_table(lengths, grading, edges):
+def branch_length_table(lengths, grading, edges, predicted=None):
     """Return the distribution of branch length: counted, measured and predicted.
 
     Parameters
@@ -231,12 +231,14 @@ def branch_length_table(lengths, grading, edges):
         Target.
     edges : array_like, shape (n+1,)
         Bin edges [m].
+    predicted : dict of array_like, optional
+        Shares of the branches in each bin by other predictions [-].
 
     Returns
     -------
     dict of ndarray, shape (n,)
         length_low_m, length_high_m, branches, the measured density and its standard error over
-        seeds (nan with one seed), and that of Eq. 4 as bin mean [1/m].
+        seeds (nan with one seed), and that of Eq. 4 and of each other prediction as bin mean [1/m].
 
     Examples
     --------
@@ -245,7 +247,7 @@ def branch_length_table(lengths, grading, edges):
     >>> float(table["density_random_contact_per_m"][0].round(9))
     0.5
     """
-    edges = np.asarray(edges, dtype=float)
+    edges, predicted = np.asarray(edges, dtype=float), predicted or {}
     counts, density = length_histogram(np.concatenate(lengths), edges)
     single = np.array([length_histogram(seed, edges)[1] for seed in lengths])
     enough = len(lengths) > 1
@@ -257,6 +259,10 @@ def branch_length_table(lengths, grading, edges):
         "density_measured_per_m": density,
         "density_measured_standard_error_per_m": error,
         "density_random_contact_per_m": random_contact_shares(grading, edges) / np.diff(edges),
+        **{
+            f"density_{name}_per_m": np.asarray(predicted[name]) / np.diff(edges)
+            for name in predicted
+        },
     }
 
 

@@ -8,20 +8,14 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from branchcrush.energy_split import (
-    Interval,
-    binned_exponent,
-    binned_sums,
-    cubic_r_squared,
-    energy_split,
-    power_law_fit,
-)
-from branchcrush.ensemble import stacked
+from branchcrush.energy_predictors import branch_columns, compared_predictors, curvature
+from branchcrush.energy_split import binned_exponent, binned_sums, cubic_r_squared, energy_split
+from branchcrush.ensemble import mean_path
 from branchcrush.errors import FitError
+from branchcrush.intervals import Interval
 
-# The columns of a contacts table that a length needs, and those that an energy split needs.
-LENGTH_COLUMNS = ("state", "radius_i_m", "radius_j_m")
-ENERGY_COLUMNS = (*LENGTH_COLUMNS, "energy_J")
+# The columns of a contacts table that energies by length need, and those that all of it needs.
+ENERGY_COLUMNS = ("state", "radius_i_m", "radius_j_m", "energy_J")
 COLUMNS = (*ENERGY_COLUMNS, "branch_length_m", "overlap_m")
 
 # The random state of the resampling: one and the same, so that a result can be made again.
@@ -33,8 +27,10 @@ class Branches(NamedTuple):
 
     sums: np.ndarray  # `energy_split.binned_sums` of each state, shape (states, 3, n)
     overlap_ratio: list[np.ndarray]  # overlap over distance of the centres, in each state [-]
-    length: np.ndarray  # R_i + R_j of every branch of the last state [m]
-    energy: np.ndarray  # and its energy [J]
+    # Every branch of the first state and of the last, as `energy_predictors.branch_columns`: those
+    # between are many, and what they say of the exponent is in the sums.
+    first: tuple
+    last: tuple
 
 
 def seed_branches(contacts, states, edges):
@@ -59,8 +55,7 @@ def seed_branches(contacts, states, edges):
         table["overlap_m"].to_numpy() / table["branch_length_m"].to_numpy() for table in tables
     ]
     sums = np.stack([_sums(table, edges) for table in tables])
-    # A copy: a part of the table would keep all of it.
-    return Branches(sums, ratios, _length(tables[-1]), tables[-1]["energy_J"].to_numpy(copy=True))
+    return Branches(sums, ratios, *(_columns(tables[number], edges) for number in (0, -1)))
 
 
 def state_sums(contacts, state, edges):
@@ -79,28 +74,6 @@ def state_sums(contacts, state, edges):
     ndarray, shape (3, n)
     """
     return _sums(*_of_states(contacts, [state]), edges)
-
-
-def state_lengths(contacts, state):
-    """Return the branch lengths R_i + R_j of one state of a seed [m].
-
-    Parameters
-    ----------
-    contacts : DataFrame
-        `contacts.parquet`, of it at least `LENGTH_COLUMNS`.
-    state : int
-
-    Returns
-    -------
-    ndarray, shape (M,)
-
-    Examples
-    --------
-    >>> contacts = {"state": [0, 1], "radius_i_m": [1.0, 2.0], "radius_j_m": [1.0, 3.0]}
-    >>> state_lengths(pd.DataFrame(contacts), 1).tolist()
-    [5.0]
-    """
-    return _length(*_of_states(contacts, [state]))
 
 
 def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples):
@@ -125,8 +98,9 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     table : dict of ndarray
         As `energy_split.energy_split`, with the edges of the bins.
     fit : dict
-        exponent with its interval, the exponent of each seed alone, the paper's cubic, and the
-        fit to all branches at once under `predictors`.
+        exponent with its interval, the exponent of each seed alone, the paper's cubic; fits to all
+        branches at once: `predictors`, the first of them the branch length, with its exponent, and
+        `curvature`, each at the end and in the first loaded state (`near_jamming`).
 
     Raises
     ------
@@ -139,10 +113,6 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     )
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
-    whole = power_law_fit(
-        np.concatenate([seed.length for seed in branches]),
-        np.concatenate([seed.energy for seed in branches]),
-    )
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
     fit = {
         "exponent": exponent.estimate,
@@ -156,13 +126,14 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
         **end_state(branches, paths, jamming),
         "cubic_slope": slope,
         "cubic_r_squared": r_squared,
-        "predictors": [
-            {
-                "name": "branch_length",
-                "method": "gamma regression of all branches, logarithmic link",
-                "exponent": float(whole.exponent),
-            }
-        ],
+        "predictors": _predictors([seed.last for seed in branches], confidence, resamples),
+        "curvature": _curvature([seed.last for seed in branches], confidence, resamples),
+        "near_jamming": {
+            "state": int(paths[0]["state"].iloc[0]),
+            "solid_fraction": _mean(path["solid_fraction"].iloc[0] for path in paths),
+            "predictors": _predictors([seed.first for seed in branches], confidence, resamples),
+            "curvature": _curvature([seed.first for seed in branches], confidence, resamples),
+        },
     }
     return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
 
@@ -186,7 +157,7 @@ def end_state(branches, paths, jamming):
     ends = pd.DataFrame([path.iloc[-1] for path in paths])
     return {
         "seeds": len(paths),
-        "branches": sum(seed.length.size for seed in branches),
+        "branches": int(sum(seed.sums[-1, 0].sum() for seed in branches)),
         "solid_fraction": float(ends["solid_fraction"].mean()),
         "jamming_solid_fraction": float(jamming),
         "mean_stress_Pa": float(ends["mean_stress_Pa"].mean()),
@@ -217,9 +188,8 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
         median_overlap_ratio (overlap over branch length), branches, exponent, exponent_low,
         exponent_high; nan where a state has too few branches for an exponent.
     """
-    mean = stacked(paths).groupby("state")[["solid_fraction", "mean_stress_Pa"]].mean()
     rows = []
-    for number, state in enumerate(paths[0]["state"]):
+    for number, state in enumerate(mean_path(paths, jamming).to_dict("records")):
         sums = np.stack([seed.sums[number] for seed in branches])
         try:
             _, exponent = binned_exponent(
@@ -232,10 +202,7 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
             exponent = Interval(np.nan, np.nan, np.nan)
         rows.append(
             {
-                "state": state,
-                "solid_fraction": mean["solid_fraction"][state],
-                "solid_fraction_above_jamming": mean["solid_fraction"][state] - jamming,
-                "mean_stress_Pa": mean["mean_stress_Pa"][state],
+                **state,
                 "median_overlap_ratio": _median_overlap_ratio(branches, number),
                 "branches": int(sums[:, 0].sum()),
                 "exponent": exponent.estimate,
@@ -244,6 +211,25 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
             }
         )
     return pd.DataFrame(rows)
+
+
+def _predictors(seeds, confidence, resamples):
+    found = compared_predictors(seeds, confidence=confidence, resamples=resamples)
+    # The one that the energy split is about; its exponent beside that of the bins.
+    if "parameters" in found[0]:
+        found[0]["exponent"] = found[0]["parameters"]["exponent"]["estimate"]
+    return found
+
+
+def _curvature(seeds, confidence, resamples):
+    try:
+        return curvature(seeds, confidence=confidence, resamples=resamples)
+    except FitError as error:
+        return {"reason": str(error)}
+
+
+def _mean(values):
+    return float(np.mean(list(values)))
 
 
 def _of_states(contacts, states):
@@ -259,6 +245,11 @@ def _of_states(contacts, states):
 def _length(table):
     # The paper's branch length, that of two spheres that just touch.
     return table["radius_i_m"].to_numpy() + table["radius_j_m"].to_numpy()
+
+
+def _columns(table, edges):
+    radii = (table["radius_i_m"].to_numpy(), table["radius_j_m"].to_numpy())
+    return branch_columns(*radii, table["energy_J"].to_numpy(), edges[-1] / 2.0)
 
 
 def _sums(table, edges):

@@ -67,7 +67,7 @@ def crushing_curves(
     ----------
     paths : list of DataFrame
         A `path.csv` for each seed.
-    exponent : energy_split.Interval
+    exponent : intervals.Interval
         n of the energy split.
     initial, ultimate : Grading
         Gradings on a common support; no ultimate one (None) for a single size.

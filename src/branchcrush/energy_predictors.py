@@ -13,7 +13,7 @@ from branchcrush.gamma_regression import deviance, gamma_fit, parameter_interval
 from branchcrush.intervals import pooled_interval
 
 # Seeds are left out in so many groups, or one by one.
-_FOLDS = 6
+_FOLDS = 4
 # Draws of the same seeds for every predictor, the same whenever a result is made again.
 _RESAMPLING = 22
 
@@ -110,7 +110,7 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
 
     .. math:: D^2 = 1 - \frac{\sum_s D_s(\text{predictor})}{\sum_s D_s(\text{mean energy})}
 
-    D_s is the gamma deviance of a seed from a fit to the other seeds (in at most six groups);
+    D_s is the gamma deviance of a seed from a fit to the other seeds (in at most four groups);
     1 would be an energy known exactly. Between predictors the same seeds are compared in pairs.
 
     Parameters

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from branchcrush.errors import FitError
+from branchcrush.intervals import interval_of_refits, seed_draws
 
 _ITERATIONS = 200
 _CONVERGED = 1e-11
@@ -22,14 +23,6 @@ class PowerLaw(NamedTuple):
 
     amplitude: float | np.ndarray
     exponent: float | np.ndarray
-
-
-class Interval(NamedTuple):
-    """An estimate and its confidence interval; low and high are nan when there is none."""
-
-    estimate: float
-    low: float
-    high: float
 
 
 def bin_edges(radius_min, radius_max, bins=20):
@@ -184,11 +177,8 @@ def _moments(weighted, centred, intercept, slope):
 def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     r"""Return the exponent of the binned energies of all seeds, with its confidence interval.
 
-    .. math:: n \pm t_{S-1}\, s_n \sqrt{S/(S-1)}
-
     Branches of one packing share one force network and are not independent, so whole seeds are
-    drawn with replacement and refitted; s_n is the standard deviation of the refits. Student's t
-    and the factor make up for how little S seeds tell of their own scatter.
+    drawn with replacement and refitted: `intervals.interval_of_refits`.
 
     Parameters
     ----------
@@ -204,7 +194,7 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     fit : PowerLaw
         Of all seeds together.
     exponent : Interval
-        nan limits with one seed, which tells nothing of its own scatter.
+        nan limits with one seed.
 
     Raises
     ------
@@ -217,10 +207,6 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     >>> fit, exponent = binned_exponent(sums, rng=np.random.default_rng(1))
     >>> [round(float(value), 6) for value in exponent]
     [3.0, 3.0, 3.0]
-
-    References
-    ----------
-    Davison and Hinkley (1997), Bootstrap Methods and their Application, sections 2.3 and 3.8.
     """
     sums = np.asarray(sums, dtype=float)
     seeds = len(sums)
@@ -228,19 +214,14 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     filled = counts > 0
     length = lengths[filled] / counts[filled]
     fit = power_law_fit(length, energies[filled] / counts[filled], counts[filled])
-    estimate = float(fit.exponent)
     if seeds == 1:
-        return fit, Interval(estimate, np.nan, np.nan)
-    from scipy.special import stdtrit  # slow to import, and few jobs need it
-
-    draws = rng.multinomial(seeds, np.full(seeds, 1.0 / seeds), size=resamples)
+        return fit, interval_of_refits(fit.exponent, [], seeds, confidence)
+    draws = seed_draws(seeds, resamples, rng)
     drawn_counts = draws @ sums[:, 0, filled]
     drawn_energies = draws @ sums[:, 2, filled]
     means = drawn_energies / np.maximum(drawn_counts, 1.0)
     refits = power_law_fit(length, means, drawn_counts).exponent
-    error = refits.std(ddof=1) * np.sqrt(seeds / (seeds - 1.0))
-    half = stdtrit(seeds - 1, (1.0 + confidence) / 2.0) * error
-    return fit, Interval(estimate, float(estimate - half), float(estimate + half))
+    return fit, interval_of_refits(fit.exponent, refits, seeds, confidence)
 
 
 def energy_split(sums, fit, radius_max):

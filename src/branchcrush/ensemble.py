@@ -102,3 +102,29 @@ def on_the_way_in(paths, used):
     """
     loading = (paths[number] for number in used)
     return [path[path["leg"] == "loading"].reset_index(drop=True) for path in loading]
+
+
+def mean_path(paths, jamming):
+    """Return the states that the seeds share, with their means over the seeds.
+
+    Parameters
+    ----------
+    paths : list of DataFrame
+        From `certified_loading`.
+    jamming : float
+        Mean phi_J of the packings [-].
+
+    Returns
+    -------
+    DataFrame
+        state, solid_fraction, solid_fraction_above_jamming and mean_stress_Pa, a row a state.
+
+    Examples
+    --------
+    >>> path = pd.DataFrame({"state": [3], "solid_fraction": [0.7], "mean_stress_Pa": [1e6]})
+    >>> mean_path([path, path], 0.5)["solid_fraction_above_jamming"].round(9).tolist()
+    [0.2]
+    """
+    mean = stacked(paths).groupby("state")[["solid_fraction", "mean_stress_Pa"]].mean()
+    mean.insert(1, "solid_fraction_above_jamming", mean["solid_fraction"] - jamming)
+    return mean.reset_index()

@@ -12,7 +12,7 @@ from branchcrush.errors import FitError
 from branchcrush.intervals import interval_of_refits, seed_draws
 
 _ITERATIONS = 100
-_CONVERGED = 1e-9
+_CONVERGED = 1e-8
 # Columns less apart than this, relative, cannot be told from each other.
 _INDEPENDENT = 1e-9
 # How many branches are taken at a time: what is made of them stays in the processor's cache.
@@ -89,7 +89,7 @@ def gamma_fit(seeds, design, start=None):
         step = _solved(whole, scores.sum(axis=0))
         step *= min(1.0, 2.0 / np.abs(step).max(initial=1e-300))
         if np.abs(step).max() < _CONVERGED:
-            return GammaFit(theta, scores, information)
+            return GammaFit(theta + step, scores, information)
         theta = theta + step
     raise FitError("the fit did not settle: too few branches carry energy")
 

@@ -163,6 +163,28 @@ def predictions(grading, edges):
     return found
 
 
+def binned_predictions(models, edges):
+    """Return the shares of the branches by the models of contact numbers in other bins.
+
+    Parameters
+    ----------
+    models : dict of Prediction
+        From `predictions`.
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    dict of ndarray, shape (n,)
+        [-]; without Eq. 4, which has no contact numbers.
+    """
+    return {
+        name: pair_shares(model.radius, model.share * model.contacts, edges)
+        for name, model in models.items()
+        if model.radius.size
+    }
+
+
 def lumped(radius, contacts, cells=2 * _CELLS):
     """Return grains in groups of nearly one radius: mean radius, and contacts of all of the group.
 

@@ -1,4 +1,4 @@
-"""The contacts of all seeds of a sample: who touches whom in each state, beside what is predicted."""
+"""The contacts of all seeds of a sample: who touches whom, beside what models predict."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,6 @@ from branchcrush.length_predictions import (
     distances,
     fine_edges,
     lumped,
-    mean_length,
     mode_length,
     pair_shares,
 )
@@ -35,6 +34,7 @@ class SeedContacts(NamedTuple):
     contacts: list[np.ndarray]  # of each grain, in each state
     lengths: np.ndarray  # branches in narrow bins, shape (states, n)
     sums: list[ContactSums]  # of each state
+    length: np.ndarray  # R_i + R_j of every branch of the last state [m]
 
 
 def sample_classes(grading, radii, contacts, walls, state):
@@ -82,7 +82,7 @@ def seed_contacts(grading, classes, radii, contacts, walls, states):
         numbers.append(network.contacts)
         lengths.append(np.histogram(network.length, edges)[0])
         sums.append(contact_sums(network, classes))
-    return SeedContacts(np.asarray(radii), numbers, np.array(lengths), sums)
+    return SeedContacts(np.asarray(radii), numbers, np.array(lengths), sums, network.length)
 
 
 def length_prediction_rows(seeds, models, edges, path, *, confidence, resamples):
@@ -96,7 +96,7 @@ def length_prediction_rows(seeds, models, edges, path, *, confidence, resamples)
     edges : array_like, shape (n+1,)
         These bins, from `length_predictions.fine_edges` [m].
     path : DataFrame
-        Columns state, solid_fraction and solid_fraction_above_jamming, a row for each state.
+        From `ensemble.mean_path`, of the same states.
     confidence, resamples
         Of the interval of the measured mean.
 

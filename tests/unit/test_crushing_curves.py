@@ -6,9 +6,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.crushing_curves import FIXED_CRUSHING, crushing_curves, measured_elasticity
-from branchcrush.energy_split import Interval
 from branchcrush.errors import AdmissibilityError, FitError
 from branchcrush.gradings import fractal, uniform
+from branchcrush.intervals import Interval
 
 JAMMING, MODULUS, EXPONENT = 0.64, 300e6, 1.5
 INITIAL, ULTIMATE = uniform(1e-4, 1e-3), fractal(1e-4, 1e-3, 2.6)

@@ -1,4 +1,5 @@
-# Branch lengths: contacts at the end of the path and gradings -> B(l), N, rho and the moments.
+# Branch lengths: contacts along the path and gradings -> who touches whom, B(l) and what predicts
+# it, N, rho and the moments.
 
 
 rule branch_lengths:
@@ -6,12 +7,18 @@ rule branch_lengths:
         packings=of_all_seeds("packing.npz"),
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
+        walls=of_all_seeds("wall_contacts.parquet"),
         certificate="results/{sample}/certificate.csv",
+        jamming="results/{sample}/jamming.csv",
         data=data_files,
         code=code("branch_lengths"),
     output:
         table="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
+        predictions="results/{sample}/length_predictions.csv",
+        numbers="results/{sample}/contact_numbers.csv",
+        pairs="results/{sample}/contact_pairs.csv",
+        touching="results/{sample}/contact_numbers.json",
     log:
         "logs/{sample}/branch_lengths.log",
     conda:
@@ -19,5 +26,6 @@ rule branch_lengths:
     params:
         sample=section("grading"),
         bins=SETTINGS.energy_split.bins,
+        intervals=INTERVALS,
     script:
         "../scripts/branch_lengths.py"

@@ -11,6 +11,8 @@ REFINED_SAMPLES = {
     for name, sample in SETTINGS.samples.items()
     if sample.refined_seeds
 }
+# Of every interval from resampling seeds.
+INTERVALS = {key: getattr(SETTINGS.energy_split, key) for key in ("confidence", "resamples")}
 
 
 wildcard_constraints:

@@ -1,36 +1,46 @@
-"""Measure the distribution of branch lengths at the end of the loading."""
+"""Measure who touches whom along the loading, and the branch lengths, beside what is predicted."""
 
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
-from branchcrush.branches import LENGTH_COLUMNS, state_lengths
 from branchcrush.energy_split import bin_edges
-from branchcrush.ensemble import certified_loading
+from branchcrush.ensemble import certified_loading, mean_path
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.tables import (
-    no_data,
-    provenance,
-    read_packing,
-    read_table,
-    write_json,
-    write_table,
+from branchcrush.length_predictions import binned_predictions, fine_edges, predictions
+from branchcrush.seed_files import read_contacts
+from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
+from branchcrush.touching import (
+    contact_number_rows,
+    length_prediction_rows,
+    sample_classes,
+    seed_contacts,
+    touching_summary,
 )
 
 with job(snakemake.log[0]):
-    files, sample = snakemake.input, snakemake.params.sample
-    grading = grading_of(sample["grading"])
-    paths = [read_table(path) for path in files.paths]
+    files, params = snakemake.input, snakemake.params
+    grading = grading_of(params.sample["grading"])
     try:
-        used, paths = certified_loading(read_table(files.certificate), paths)
-        end = paths[0]["state"].iloc[-1]
-        lengths = [
-            state_lengths(read_table(files.contacts[number], LENGTH_COLUMNS), end)
+        used, paths = certified_loading(
+            read_table(files.certificate), [read_table(path) for path in files.paths]
+        )
+        states = paths[0]["state"].to_list()
+        classes = sample_classes(grading, *read_contacts(files, used[0]), states[-1])
+        seeds = [
+            seed_contacts(grading, classes, *read_contacts(files, number), states)
             for number in used
         ]
-        edges = bin_edges(*grading.support(), snakemake.params.bins)
-        table = branch_length_table(lengths, grading, edges)
+        jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used].mean()
+        fine, path = fine_edges(*grading.support()), mean_path(paths, jamming)
+        models = predictions(grading, fine)
+        rows = length_prediction_rows(seeds, models, fine, path, **params.intervals)
+        numbers, pairs = contact_number_rows(seeds, models, classes, path, **params.intervals)
+        touching = touching_summary(seeds, models, rows, path, **params.intervals)
+
+        lengths, edges = [seed.length for seed in seeds], bin_edges(*grading.support(), params.bins)
+        table = branch_length_table(lengths, grading, edges, binned_predictions(models, edges))
         statistics = branch_statistics(
-            [read_packing(files.packings[number])[1] for number in used],
+            [seed.radius for seed in seeds],
             lengths,
             [path["volume_m3"].iloc[-1] for path in paths],
             [path["coordination_number"].iloc[-1] for path in paths],
@@ -38,6 +48,14 @@ with job(snakemake.log[0]):
         )
     except FitError as error:
         table, statistics = no_data(error)
-    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
-    write_table(snakemake.output.table, table, origin)
+        rows, numbers, pairs, touching = table, table, table, statistics
+    origin = provenance(sample=snakemake.wildcards.sample, config=params.sample)
+    for name, result in (
+        ("table", table),
+        ("predictions", rows),
+        ("numbers", numbers),
+        ("pairs", pairs),
+    ):
+        write_table(snakemake.output[name], result, origin)
     write_json(snakemake.output.statistics, statistics, origin)
+    write_json(snakemake.output.touching, touching, origin)

@@ -1,11 +1,11 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
 from branchcrush.crushing_curves import crushing_curves
-from branchcrush.energy_split import Interval
 from branchcrush.ensemble import certified_loading, on_the_way_in
 from branchcrush.errors import AdmissibilityError, FitError
 from branchcrush.grading_files import grading_of
 from branchcrush.gradings import ultimate_grading
+from branchcrush.intervals import Interval
 from branchcrush.jobs import job
 from branchcrush.tables import no_data, provenance, read_json, read_table, write_json, write_table
 

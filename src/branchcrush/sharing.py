@@ -1,0 +1,129 @@
+"""What the contact networks of a sample share: energy by grain and branch, forces, and stress."""
+
+import numpy as np
+import pandas as pd
+
+from branchcrush.contact_statistics import radius_classes
+from branchcrush.errors import FitError
+from branchcrush.fabric import fabric_result
+from branchcrush.force_network import (
+    THRESHOLDS,
+    force_by_length,
+    force_distribution,
+    force_tail,
+    relative_forces,
+)
+from branchcrush.grain_size_split import EINAV, grain_energy_exponents
+from branchcrush.shielding import branch_shielding, grain_shielding, network_branches
+from branchcrush.stress_sharing import stress_by_radius, stress_sharing
+
+TABLES = (
+    "shielding_branches",
+    "shielding_grains",
+    "force_distribution",
+    "force_by_length",
+    "fabric",
+    "stress_by_radius",
+    "stress_sharing",
+)
+# The random state of the resampling: one and the same, so that a result can be made again.
+_RESAMPLING = 23
+
+
+def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, resamples):
+    """Return how the seeds of a sample share energy, force and stress in one state.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    vectors : list of array_like, shape (M, 3)
+        Branch vectors of each [m].
+    edges : array_like, shape (n+1,)
+        Bins of branch length, from the smallest diameter to the largest [m].
+    contact_exponent : float
+        1 for linear contacts, 3/2 for Hertz.
+    confidence, resamples
+        As for `intervals.pooled_interval`.
+
+    Returns
+    -------
+    tables : dict of DataFrame
+        `TABLES`; shielding_branches only where the energies bear a power law.
+    summary : dict
+        shielding, forces, fabric and stress.
+    """
+    options = {"confidence": confidence, "resamples": resamples}
+
+    def drawn():
+        return {**options, "rng": np.random.default_rng(_RESAMPLING)}
+
+    tables, shielding = {}, {}
+    tables["shielding_grains"], shielding["grains"] = grain_shielding(
+        networks, contact_exponent, **drawn()
+    )
+    try:
+        branches = [network_branches(network, edges[-1] / 2.0) for network in networks]
+        tables["shielding_branches"], shielding["branches"] = branch_shielding(branches, **drawn())
+    except FitError as error:
+        shielding["branches"] = {"reason": str(error)}
+    try:
+        shielding["grain_energy"] = {
+            **grain_energy_exponents(networks, contact_exponent, **drawn()),
+            "einav": EINAV,
+        }
+    except FitError as error:
+        shielding["grain_energy"] = {"reason": str(error)}
+
+    forces = [relative_forces(network.force) for network in networks]
+    tables["force_distribution"] = force_distribution(forces, **drawn())
+    tables["force_by_length"], exponent = force_by_length(networks, edges, **drawn())
+    tails = [force_tail(forces, threshold, **drawn()) for threshold in THRESHOLDS]
+    limits = dict(zip(("exponent", "exponent_low", "exponent_high"), exponent or (), strict=False))
+
+    rows, fabric = fabric_result(
+        vectors, [network.force for network in networks], confidence=confidence
+    )
+    tables["fabric"] = pd.DataFrame(rows).rename_axis("seed_number").reset_index()
+
+    classes = radius_classes(
+        np.concatenate([network.radius for network in networks]),
+        np.concatenate([network.contacts for network in networks]),
+    )
+    tables["stress_by_radius"] = stress_by_radius(networks, classes, **drawn())
+    tables["stress_sharing"], stress = stress_sharing(networks, **drawn())
+    summary = {
+        "shielding": shielding,
+        "forces": {"tails": tails, "by_length": limits},
+        "fabric": fabric,
+        "stress": stress,
+    }
+    return {name: pd.DataFrame(table) for name, table in tables.items()}, summary
+
+
+def both_states(found):
+    """Return the tables and summaries of some states together.
+
+    Parameters
+    ----------
+    found : dict
+        What `shared_in_state` returns, by (name of the state, its number).
+
+    Returns
+    -------
+    tables : dict of DataFrame
+        Each of `TABLES`, with columns where and state in front; one without data says why.
+    summary : dict
+        By the names of the states, with their numbers.
+    """
+    tables = {}
+    for name in TABLES:
+        parts = [
+            pd.DataFrame({"where": where, "state": state} | dict(part[name].items()))
+            for (where, state), (part, _) in found.items()
+            if name in part
+        ]
+        reason = pd.DataFrame({"reason": ["the energies bear no power law of branch length"]})
+        tables[name] = pd.concat(parts, ignore_index=True) if parts else reason
+    summary = {where: {"state": state, **summary} for (where, state), (_, summary) in found.items()}
+    return tables, summary
