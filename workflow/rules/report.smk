@@ -7,9 +7,11 @@ FIT_FIGURES = [
     "fig6_cubic",
     "fig7_branch_lengths",
     "exponent_path",
+    "predictors",
     "crushing_model",
 ]
-FIGURES = PACKING_FIGURES + FIT_FIGURES
+NETWORK_FIGURES = ["who_touches_whom", "sharing"]
+FIGURES = PACKING_FIGURES + FIT_FIGURES + NETWORK_FIGURES
 
 
 rule packing_figures:
@@ -59,6 +61,34 @@ rule fit_figures:
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/fit_figures.py"
+
+
+rule network_figures:
+    input:
+        contact_numbers="results/{sample}/contact_numbers.csv",
+        contact_pairs="results/{sample}/contact_pairs.csv",
+        predictions="results/{sample}/length_predictions.csv",
+        numbers="results/{sample}/contact_numbers.json",
+        shared="results/{sample}/sharing.json",
+        shielding_branches="results/{sample}/shielding_branches.csv",
+        shielding_grains="results/{sample}/shielding_grains.csv",
+        force_distribution="results/{sample}/force_distribution.csv",
+        force_by_length="results/{sample}/force_by_length.csv",
+        stress_by_radius="results/{sample}/stress_by_radius.csv",
+        stress_sharing="results/{sample}/stress_sharing.csv",
+        data=data_files,
+        code=code("network_figures"),
+    output:
+        **{name: f"results/figures/{{sample}}/{name}.png" for name in NETWORK_FIGURES},
+    log:
+        "logs/{sample}/network_figures.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        sample=section("grading"),
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/network_figures.py"
 
 
 rule comparison:

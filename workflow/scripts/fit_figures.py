@@ -2,7 +2,7 @@
 
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.plotting import crushing, distributions, energy
+from branchcrush.plotting import crushing, distributions, energy, predictors
 from branchcrush.plotting.style import SIZE, drawn, figure
 from branchcrush.tables import read_json, read_table
 
@@ -21,6 +21,9 @@ with job(snakemake.log[0]):
         drawn(distributions.plot_branch_lengths, statistics, table, statistics, radius_max, ax=ax)
     with figure(output.exponent_path, dpi) as ax:
         drawn(energy.plot_exponent_path, fit, read_table(files.split_path), fit, ax=ax)
+    with figure(output.predictors, dpi, (2 * SIZE[0], SIZE[1]), (1, 2)) as panels:
+        drawn(predictors.plot_predictors, fit, fit, ax=panels[0])
+        drawn(predictors.plot_slopes, fit, fit, ax=panels[1])
 
     with figure(output.crushing_model, dpi, (2 * SIZE[0], 3 * SIZE[1]), (3, 2)) as panels:
         free, stress = r"free energy $\Psi$ [MJ/m³]", r"mean stress $\sigma$ [MPa]"

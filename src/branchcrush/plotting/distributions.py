@@ -100,6 +100,15 @@ def plot_branch_lengths(table, statistics, radius_max, ax=None):
         color=MODEL,
         label="Eq. 4: any two grains touch alike",
     )
+    if "density_parking_per_m" in table:
+        ax.plot(
+            middle,
+            table["density_parking_per_m"] * radius_max,
+            "D-",
+            ms=2.5,
+            color=OTHER,
+            label="random parking, at jamming",
+        )
     for key, color in (("mean_length_1_m1", MEASURED), ("eq4_length_1_m1", MODEL)):
         ax.axvline(statistics[key] / radius_max, color=color, lw=0.8, ls=":")
     ax.set(xlabel=r"branch length $l/R_M$ [-]", ylabel=r"density $B(l)\,R_M$ [-]")

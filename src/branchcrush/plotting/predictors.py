@@ -1,0 +1,95 @@
+"""What the energy of a branch depends on: predictors judged on seeds left out."""
+
+import numpy as np
+
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+
+# Of every predictor: what it is called, its colour and its marker.
+PREDICTORS = {
+    "branch_length": ("branch length l", MEASURED, "o"),
+    "reduced_radius": ("reduced radius R*", OTHER, "D"),
+    "both_radii": (r"$r_{min}^a\, r_{max}^b$", "#8a5aa5", "^"),
+    "grain_size": ("grain size (Einav)", MODEL, "s"),
+    "surface": ("any smooth function of both", FAINT, "|"),
+}
+
+
+def plot_predictors(fit, ax=None):
+    """Draw the deviance that each predictor explains on seeds left out of its fit.
+
+    Parameters
+    ----------
+    fit : dict
+        `energy_split.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    shown = 0
+    states = (("at the end", fit["predictors"], MEASURED, -0.12),)
+    states += (("near jamming", fit["near_jamming"]["predictors"], "#6f9bc4", 0.12),)
+    for label, predictors, color, shift in states:
+        known = [p for p in predictors if p.get("explained_deviance") is not None]
+        rows = [list(PREDICTORS).index(p["name"]) + shift for p in known]
+        value, low, high = (
+            np.array([p[f"explained_deviance{part}"] for p in known], dtype=float)
+            for part in ("", "_low", "_high")
+        )
+        if known:
+            ax.errorbar(
+                value, rows, xerr=[value - low, high - value], fmt="o", color=color, label=label
+            )
+            shown += 1
+    ax.set_yticks(range(len(PREDICTORS)), [label for label, *_ in PREDICTORS.values()])
+    ax.invert_yaxis()
+    ax.set_xlabel("deviance explained on seeds left out [-]")
+    if not shown:
+        ax.text(0.5, 0.5, "needs two seeds or more", ha="center", transform=ax.transAxes)
+        return ax
+    ax.set_xlim(min(0.0, ax.get_xlim()[0]), None)
+    ax.legend(loc="lower right")
+    return ax
+
+
+def plot_slopes(fit, ax=None):
+    """Draw the local exponents of the energy at short and at long branches.
+
+    Parameters
+    ----------
+    fit : dict
+        `energy_split.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    places = ("slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
+    states = (("at the end", fit["curvature"], MEASURED, 0.05),)
+    states += (("near jamming", fit["near_jamming"]["curvature"], "#6f9bc4", -0.05),)
+    for label, bend, color, shift in states:
+        if "reason" in bend:
+            continue
+        value, low, high = (
+            np.array([bend[place + part] for place in places], dtype=float)
+            for part in ("", "_low", "_high")
+        )
+        text = f"{label}: c = {bend['curvature']:.2f}"
+        error = None
+        if np.isfinite(low).all():
+            text += f" ({bend['curvature_low']:.2f} to {bend['curvature_high']:.2f})"
+            error = [value - low, high - value]
+        ax.errorbar(np.arange(3) + shift, value, error, fmt="o-", color=color, label=text)
+    ax.axhline(3.0, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
+    ax.set_xticks(range(3), ["shortest 10 %", "mean", "longest 10 %"])
+    ax.set(
+        xlabel="branches, by length", ylabel="local exponent d ln E / d ln l [-]", xlim=(-0.3, 2.3)
+    )
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.35 * (high - low))
+    ax.legend(loc="upper left", title="c = 0 for a power law", title_fontsize=6.5)
+    return ax

@@ -1,0 +1,191 @@
+"""Who touches whom: contact numbers by radius, pairs of radii, and predictions of the lengths."""
+
+import numpy as np
+
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+
+# Of every prediction: what it is called, its colour and its marker.
+PREDICTIONS = {
+    "random_contact": ("Eq. 4, any two alike", MODEL, "s"),
+    "mean_neighbour": ("solid angle, mean neighbour", "#c99a1a", "^"),
+    "surface": ("Bouvard-Lange", FAINT, "v"),
+    "self_consistent": ("self-consistent, rattler cut", "#8a5aa5", "D"),
+    "parking": ("random parking", OTHER, "o"),
+    "configuration": ("measured contact numbers", MEASURED, "P"),
+}
+
+
+def plot_contact_numbers(table, summary, radius_max, ax=None):
+    """Draw the contact number by radius near jamming and at the end, beside the models.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `contact_numbers.csv`.
+    summary : dict
+        `contact_numbers.json`.
+    radius_max : float
+        [m]
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for where, color in (("near_jamming", MEASURED), ("end", "#6f9bc4")):
+        state = summary[where]
+        rows = table[table["state"] == state["state"]]
+        low, high = (rows[f"contact_number_{part}"] for part in ("low", "high"))
+        error = None
+        if low.notna().any():
+            error = np.maximum([rows["contact_number"] - low, high - rows["contact_number"]], 0.0)
+        ax.errorbar(
+            rows["mean_radius_m"] / radius_max,
+            rows["contact_number"],
+            error,
+            fmt="o",
+            color=color,
+            lw=0.8,
+            label=rf"measured, $\phi$ = {state['solid_fraction']:.3f}",
+        )
+    for name in ("mean_neighbour", "self_consistent", "parking"):
+        column = f"contact_number_{name}"
+        if column in table:
+            label, color, _ = PREDICTIONS[name]
+            ax.plot(rows["mean_radius_m"] / radius_max, rows[column], color=color, label=label)
+    ax.set(xlabel=r"radius $R/R_M$ [-]", ylabel="contacts of a grain, rattlers too [-]")
+    ax.set(xlim=(0, 1.03), ylim=(0, None))
+    ax.legend(loc="upper left", title="models: at jamming", title_fontsize=6.5)
+    return ax
+
+
+def plot_pairs(table, summary, radius_max, ax=None):
+    """Draw how often classes of radius touch, over what their contact numbers alone would give.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `contact_pairs.csv`.
+    summary : dict
+        `contact_numbers.json`.
+    radius_max : float
+        [m]
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    end = summary["end"]
+    rows = table[table["state"] == end["state"]]
+    # Few contacts say nothing of their ratio.
+    ratio = rows["ratio"].where(rows["expected_contacts"] >= 20).to_numpy()
+    edges = np.append(rows["radius_j_low_m"].unique(), rows["radius_j_high_m"].max()) / radius_max
+    spread = max(np.nanmax(np.abs(np.log2(np.maximum(ratio, 0.25)))), 0.2)
+    drawn = ax.pcolormesh(
+        edges,
+        edges,
+        np.log2(np.maximum(ratio, 0.25)).reshape(len(edges) - 1, -1),
+        cmap="RdBu_r",
+        vmin=-spread,
+        vmax=spread,
+    )
+    ax.set_facecolor("#eeeeee")
+    bar = ax.figure.colorbar(drawn, ax=ax)
+    ticks = [tick for tick in (-2, -1, -0.5, -0.2, 0, 0.2, 0.5, 1, 2) if abs(tick) <= spread]
+    bar.set_ticks(ticks, labels=[f"{2.0**tick:.2f}" for tick in ticks])
+    bar.set_label("contacts over expected [-]")
+    ax.set(xlabel=r"radius $R/R_M$ [-]", ylabel=r"radius of the other $R'/R_M$ [-]")
+    ax.set_aspect("equal")
+    alike = end["assortativity_of_radii"]
+    ax.set_title(rf"correlation of the two radii {alike:.2f}, $\phi$ = {end['solid_fraction']:.3f}")
+    return ax
+
+
+def plot_distances(table, ax=None):
+    """Draw how far each prediction of the branch lengths is off along the loading.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `length_predictions.csv`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    x, label = above_jamming(table)
+    for name, (text, color, marker) in PREDICTIONS.items():
+        rows = table["prediction"] == name
+        ax.plot(
+            x[rows],
+            table.loc[rows, "kolmogorov_smirnov"],
+            color=color,
+            marker=marker,
+            ms=2.5,
+            label=text,
+        )
+    ax.set(xlabel=label, ylabel="Kolmogorov-Smirnov distance [-]", yscale="log")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high * 4.0)
+    ax.legend(loc="upper center", ncols=2)
+    return ax
+
+
+def plot_mean_lengths(table, radius_max, ax=None):
+    """Draw the mean branch length along the loading, measured and predicted.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `length_predictions.csv`.
+    radius_max : float
+        [m]
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    x, label = above_jamming(table)
+    for name, (text, color, _) in PREDICTIONS.items():
+        rows = table["prediction"] == name
+        if name == "configuration":  # has the measured mean, by its making
+            measured = table[rows]
+            mean = measured["measured_mean_length_m"] / radius_max
+            ax.plot(x[rows], mean, "o-", color=color, label="measured")
+            limits = (measured[f"measured_mean_length_{part}_m"] for part in ("low", "high"))
+            ax.fill_between(
+                x[rows], *(limit / radius_max for limit in limits), color=color, alpha=0.2, lw=0
+            )
+        elif rows.any():
+            mean = table.loc[rows, "mean_length_m"].iloc[0] / radius_max
+            ax.axhline(mean, color=color, lw=1.0, ls="--", label=text)
+    ax.set(xlabel=label, ylabel=r"mean branch length $\langle l\rangle/R_M$ [-]")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.55 * (high - low))
+    ax.legend(loc="upper center", ncols=2)
+    return ax
+
+
+def above_jamming(table):
+    """Return what to draw a path against, and its label: phi - phi_J, or phi where it is unknown.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With columns solid_fraction and solid_fraction_above_jamming.
+
+    Returns
+    -------
+    Series, str
+    """
+    above = table["solid_fraction_above_jamming"]
+    if above.isna().any():
+        return table["solid_fraction"], r"solid fraction $\phi$ [-]"
+    return above, r"solid fraction above jamming $\phi - \phi_J$ [-]"

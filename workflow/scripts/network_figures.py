@@ -1,0 +1,40 @@
+"""Draw the contact network of a sample: who touches whom, and who carries what."""
+
+from branchcrush.grading_files import grading_of
+from branchcrush.jobs import job
+from branchcrush.plotting import sharing, touching
+from branchcrush.plotting.style import SIZE, drawn, figure
+from branchcrush.tables import read_json, read_table
+
+with job(snakemake.log[0]):
+    files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
+    numbers, shared = read_json(files.numbers), read_json(files.shared)
+    branches = shared if "reason" in shared else shared["end"]["shielding"]["branches"]
+    _, largest = grading_of(snakemake.params.sample["grading"]).support()
+
+    def draw(panels, plots):
+        for ax, (plot, result, table, *data) in zip(panels.flat, plots, strict=True):
+            drawn(plot, result, read_table(files[table]), *data, ax=ax)
+
+    with figure(output.who_touches_whom, dpi, (2 * SIZE[0], 2 * SIZE[1]), (2, 2)) as panels:
+        draw(
+            panels,
+            (
+                (touching.plot_contact_numbers, numbers, "contact_numbers", numbers, largest),
+                (touching.plot_pairs, numbers, "contact_pairs", numbers, largest),
+                (touching.plot_distances, numbers, "predictions"),
+                (touching.plot_mean_lengths, numbers, "predictions", largest),
+            ),
+        )
+    with figure(output.sharing, dpi, (2 * SIZE[0], 3 * SIZE[1]), (3, 2)) as panels:
+        draw(
+            panels,
+            (
+                (sharing.plot_branch_shielding, branches, "shielding_branches", shared),
+                (sharing.plot_grain_shielding, shared, "shielding_grains"),
+                (sharing.plot_force_distribution, shared, "force_distribution", shared),
+                (sharing.plot_force_by_length, shared, "force_by_length", shared, largest),
+                (sharing.plot_stress_by_radius, shared, "stress_by_radius", largest),
+                (sharing.plot_stress_sharing, shared, "stress_sharing", shared),
+            ),
+        )
