@@ -44,3 +44,4 @@ rule all:
     input:
         "results/comparison.csv",
         "results/report.html",
+        "results/findings.html",

@@ -28,7 +28,16 @@ _MOST_SEEDS = 1000
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _LONGEST_NAME = 100
 # Files and folders of results that no sample may be called.
-_TAKEN = ("figures", "comparison.csv", "report.html", "preview.txt")
+_TAKEN = (
+    "figures",
+    "findings",
+    "comparison.csv",
+    "coordination.csv",
+    "findings.csv",
+    "findings.html",
+    "report.html",
+    "preview.txt",
+)
 
 
 class LinearContact(Section):

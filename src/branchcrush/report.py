@@ -74,6 +74,42 @@ def render_report(template, samples):
     return environment.from_string(template).render(samples=pages, version=__version__)
 
 
+def render_findings(template, rows, verdicts, figures):
+    """Return the page on which all samples are judged together, its figures inside.
+
+    Parameters
+    ----------
+    template : str
+        Jinja source.
+    rows : list of dict
+        From `findings.finding_row`, None where there is no number.
+    verdicts : dict
+        From `findings.verdicts`.
+    figures : dict
+        Paths by name.
+
+    Returns
+    -------
+    str
+    """
+    environment = Environment(autoescape=True, undefined=StrictUndefined)
+    environment.filters |= {"image": _image, "number": _number, "range": _range}
+    distance = next((row["distance"] for row in rows if not row["reason"]), None)
+    return environment.from_string(template).render(
+        rows=rows, verdicts=verdicts, distance=distance, figures=figures, version=__version__
+    )
+
+
+def _range(row, name, form="%.2f"):
+    """Format an estimate of a row with its interval."""
+    value, low, high = (row.get(name + part) for part in ("", "_low", "_high"))
+    if value is None or value != value:
+        return "none"
+    if low is None or low != low:
+        return form % value
+    return f"{form % value} ({form % low} to {form % high})"
+
+
 def _image(path):
     return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode()
 

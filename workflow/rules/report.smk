@@ -13,6 +13,8 @@ FIT_FIGURES = [
 NETWORK_FIGURES = ["who_touches_whom", "sharing"]
 FIGURES = PACKING_FIGURES + FIT_FIGURES + NETWORK_FIGURES
 
+FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
+
 
 rule packing_figures:
     input:
@@ -129,3 +131,55 @@ rule report:
         samples=SAMPLES,
     script:
         "../scripts/report.py"
+
+
+rule findings:
+    input:
+        loading=[
+            file
+            for name, sample in SAMPLES.items()
+            for file in of_seeds("path.csv", name, sample["seeds"])
+        ],
+        jamming=expand("results/{sample}/jamming.csv", sample=SAMPLES),
+        fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
+        paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
+        numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
+        shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
+        code=code("findings"),
+    output:
+        rows="results/findings.csv",
+        states="results/coordination.csv",
+    log:
+        "logs/findings.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        samples=SAMPLES,
+    script:
+        "../scripts/findings.py"
+
+
+rule findings_page:
+    input:
+        template=f"{workflow.basedir}/workflow/report/findings.html.jinja",
+        rows="results/findings.csv",
+        states="results/coordination.csv",
+        paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
+        grains=expand("results/{sample}/shielding_grains.csv", sample=SAMPLES),
+        branches=expand("results/{sample}/shielding_branches.csv", sample=SAMPLES),
+        stress=expand("results/{sample}/stress_sharing.csv", sample=SAMPLES),
+        forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
+        code=code("findings_page"),
+    output:
+        **{name: f"results/figures/findings/{name}.png" for name in FINDINGS},
+        page="results/findings.html",
+    log:
+        "logs/findings_page.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        samples=SAMPLES,
+        figures=FINDINGS,
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/findings_page.py"

@@ -50,7 +50,7 @@ def plot_predictors(fit, ax=None):
         ax.text(0.5, 0.5, "needs two seeds or more", ha="center", transform=ax.transAxes)
         return ax
     ax.set_xlim(min(0.0, ax.get_xlim()[0]), None)
-    ax.legend(loc="lower right")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncols=2)
     return ax
 
 

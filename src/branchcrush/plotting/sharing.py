@@ -41,9 +41,9 @@ def plot_branch_shielding(table, summary, ax=None):
         xlabel=r"ratio of the radii $r_{min}/r_{max}$ [-]",
         ylabel="energy over that of all of its length [-]",
     )
-    ax.set(xlim=(0, 1), ylim=(0, None))
+    ax.set(xlim=(0, 1), ylim=(0, max(2.0, ax.get_ylim()[1])))
     ax.legend(
-        loc="lower right",
+        loc="upper left",
         title=r"bins of 20 branches or more; $E \sim l^n (r_{min}/r_{max})^s$",
         title_fontsize=6.5,
     )
@@ -91,9 +91,8 @@ def plot_grain_shielding(table, reading="volume", ax=None):
         xlabel=r"radius over neighbours' mean $R/\langle R\rangle_{nb}$ [-]",
     )
     ax.set_ylabel(f"energy per {reading} over the mean [-]")
-    low, high = ax.get_ylim()
-    ax.set_ylim(max(min(low, 0.05), 1e-3), max(high, 3.0) * 6.0)
-    ax.legend(loc="upper left", ncols=1)
+    ax.set_ylim(0.01, max(ax.get_ylim()[1], 10.0))
+    ax.legend(loc="lower left")
     return ax
 
 

@@ -35,7 +35,7 @@ def axes(ax=None):
 
 
 @contextmanager
-def figure(path, dpi, size=SIZE, panels=(1, 1)):
+def figure(path, dpi, size=SIZE, panels=(1, 1), squeeze=True):
     """Draw a figure and save it: yields its Axes, one or an array of them.
 
     Parameters
@@ -47,9 +47,11 @@ def figure(path, dpi, size=SIZE, panels=(1, 1)):
         [inch]
     panels : tuple of int
         Rows and columns.
+    squeeze : bool
+        Whether one panel comes alone and one row or column as a list, or all as an array.
     """
     with plt.rc_context(_STYLE):
-        drawn, ax = plt.subplots(*panels, figsize=size, layout="constrained")
+        drawn, ax = plt.subplots(*panels, figsize=size, layout="constrained", squeeze=squeeze)
         yield ax
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         # No date and no version of the plotting library: the same data give the same bytes.

@@ -55,7 +55,7 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
             label, color, _ = PREDICTIONS[name]
             ax.plot(rows["mean_radius_m"] / radius_max, rows[column], color=color, label=label)
     ax.set(xlabel=r"radius $R/R_M$ [-]", ylabel="contacts of a grain, rattlers too [-]")
-    ax.set(xlim=(0, 1.03), ylim=(0, None))
+    ax.set(xlim=(0, 1.03), ylim=(0, 1.6 * ax.get_ylim()[1]))
     ax.legend(loc="upper left", title="models: at jamming", title_fontsize=6.5)
     return ax
 
@@ -131,8 +131,8 @@ def plot_distances(table, ax=None):
         )
     ax.set(xlabel=label, ylabel="Kolmogorov-Smirnov distance [-]", yscale="log")
     low, high = ax.get_ylim()
-    ax.set_ylim(low, high * 4.0)
-    ax.legend(loc="upper center", ncols=2)
+    ax.set_ylim(low, high * (high / low) ** 0.9)
+    ax.legend(loc="upper left")
     return ax
 
 
@@ -153,7 +153,7 @@ def plot_mean_lengths(table, radius_max, ax=None):
     """
     ax = axes(ax)
     x, label = above_jamming(table)
-    for name, (text, color, _) in PREDICTIONS.items():
+    for name, (_, color, _) in PREDICTIONS.items():
         rows = table["prediction"] == name
         if name == "configuration":  # has the measured mean, by its making
             measured = table[rows]
@@ -165,11 +165,12 @@ def plot_mean_lengths(table, radius_max, ax=None):
             )
         elif rows.any():
             mean = table.loc[rows, "mean_length_m"].iloc[0] / radius_max
-            ax.axhline(mean, color=color, lw=1.0, ls="--", label=text)
+            ax.axhline(mean, color=color, lw=1.0, ls="--")
     ax.set(xlabel=label, ylabel=r"mean branch length $\langle l\rangle/R_M$ [-]")
     low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.55 * (high - low))
-    ax.legend(loc="upper center", ncols=2)
+    ax.set_ylim(low, high + 0.25 * (high - low))
+    ax.plot([], [], "--", color=FAINT, label="predicted, in the colours of the distances")
+    ax.legend(loc="upper left")
     return ax
 
 

@@ -1,0 +1,95 @@
+"""The exponent of the energy split along the loading: where it is what, in samples of one study."""
+
+import numpy as np
+
+# The exponent of the paper.
+PAPER = 3.0
+
+
+def at_distance(path, distance):
+    """Return the exponent at a distance from jamming, between the states next to it.
+
+    Parameters
+    ----------
+    path : DataFrame
+        `energy_split_path.csv`.
+    distance : float
+        phi - phi_J [-].
+
+    Returns
+    -------
+    tuple of float
+        exponent, low and high; nan beyond the states there are.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> path = pd.DataFrame({"solid_fraction_above_jamming": [0.0, 0.2], "exponent": [2.0, 4.0],
+    ...                      "exponent_low": [1.0, 3.0], "exponent_high": [3.0, 5.0]})
+    >>> [round(value, 9) for value in at_distance(path, 0.1)]
+    [3.0, 2.0, 4.0]
+    """
+    known = path[path["exponent"].notna()]
+    above = known["solid_fraction_above_jamming"].to_numpy()
+    if not above.size or not above[0] <= distance <= above[-1]:
+        return np.nan, np.nan, np.nan
+    return tuple(
+        float(np.interp(distance, above, known[f"exponent{part}"]))
+        for part in ("", "_low", "_high")
+    )
+
+
+def crossing(path, exponent=PAPER):
+    """Return the distance from jamming from which on the exponent is above a value.
+
+    Parameters
+    ----------
+    path : DataFrame
+        `energy_split_path.csv`.
+    exponent : float
+
+    Returns
+    -------
+    float
+        phi - phi_J [-]; nan when it is above all the way, or below at the end.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> path = pd.DataFrame({"solid_fraction_above_jamming": [0.0, 0.2], "exponent": [2.0, 4.0]})
+    >>> round(crossing(path), 9)
+    0.1
+    """
+    known = path[path["exponent"].notna()]
+    above, value = (known[name].to_numpy() for name in ("solid_fraction_above_jamming", "exponent"))
+    below = np.flatnonzero(value < exponent)
+    if not below.size or below[-1] == value.size - 1:
+        return np.nan
+    last = below[-1]
+    share = (exponent - value[last]) / (value[last + 1] - value[last])
+    return float(above[last] + share * (above[last + 1] - above[last]))
+
+
+def common_distance(paths):
+    """Return the largest distance from jamming that all samples reach, rounded down to 0.01.
+
+    Parameters
+    ----------
+    paths : list of DataFrame
+        `energy_split_path.csv` of each sample with data.
+
+    Returns
+    -------
+    float
+        phi - phi_J [-]; nan without samples.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> common_distance([pd.DataFrame({"solid_fraction_above_jamming": [0.01, 0.128]})])
+    0.12
+    """
+    ends = [path["solid_fraction_above_jamming"].max() for path in paths]
+    if not ends or not np.isfinite(ends).all():
+        return float("nan")
+    return float(np.floor(min(ends) * 100.0 + 1e-9) / 100.0)

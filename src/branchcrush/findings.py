@@ -1,0 +1,236 @@
+"""All samples of a study beside each other: what their numbers say together."""
+
+import numpy as np
+import pandas as pd
+
+from branchcrush.coordination_laws import jamming_prefactor
+from branchcrush.exponent_paths import PAPER, at_distance, crossing
+
+# How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
+GOOD_DISTANCE = 0.06
+_RESAMPLING = 24
+
+
+def coordination_rows(name, paths, jamming):
+    """Return the coordination numbers of every loaded state on the way in, of every seed.
+
+    Parameters
+    ----------
+    name : str
+        Of the sample.
+    paths : list of DataFrame
+        `path.csv` of each seed.
+    jamming : array_like
+        phi_J of each seed, nan where it is unknown [-].
+
+    Returns
+    -------
+    DataFrame
+        sample, seed_number, state, solid_fraction, solid_fraction_above_jamming, void_ratio,
+        coordination_number, mechanical_coordination_number, rattler_fraction.
+    """
+    columns = [
+        "state",
+        "solid_fraction",
+        "void_ratio",
+        "coordination_number",
+        "mechanical_coordination_number",
+        "rattler_fraction",
+    ]
+    parts = []
+    for number, (path, point) in enumerate(zip(paths, jamming, strict=True)):
+        loaded = path.loc[path["carries_load"] & (path["leg"] == "loading"), columns]
+        loaded = loaded.assign(solid_fraction_above_jamming=loaded["solid_fraction"] - point)
+        loaded.insert(0, "seed_number", number)
+        loaded.insert(0, "sample", name)
+        parts.append(loaded)
+    return pd.concat(parts, ignore_index=True)
+
+
+def finding_row(name, settings, fit, numbers, shared, path, states, distance):
+    """Return the row of `findings.csv` of a sample.
+
+    Parameters
+    ----------
+    name : str
+    settings : dict
+        Of the sample.
+    fit, numbers, shared : dict
+        `energy_split.json`, `contact_numbers.json` and `sharing.json`.
+    path : DataFrame
+        `energy_split_path.csv`.
+    states : DataFrame
+        From `coordination_rows`.
+    distance : float
+        From `exponent_paths.common_distance` [-].
+
+    Returns
+    -------
+    dict
+        Empty where a sample has no data; `reason` then says why.
+    """
+    row = {
+        "sample": name,
+        "boundary": settings["boundary"],
+        "contact_law": settings["contact"]["law"],
+    }
+    reasons = [part["reason"] for part in (fit, numbers, shared) if part.get("reason")]
+    row["reason"] = reasons[0] if reasons else None
+    if reasons:
+        return row
+    row |= {"seeds": fit["seeds"], "solid_fraction": fit["solid_fraction"]}
+    row["distance_at_end"] = float(path["solid_fraction_above_jamming"].iloc[-1])
+    for part in ("", "_low", "_high"):
+        row[f"exponent_at_end{part}"] = fit[f"exponent{part}"]
+    row["distance"] = distance
+    found = at_distance(path, distance)
+    row |= dict(zip(_limits("exponent_at_distance"), found, strict=True))
+    row["distance_of_exponent_3"] = crossing(path)
+    row |= _split(fit, "end")
+    row |= _split(fit["near_jamming"], "near")
+    row |= _lengths(numbers)
+    row |= _coordination(numbers, states)
+    return row | _shared(shared["end"])
+
+
+def _limits(name):
+    return name, f"{name}_low", f"{name}_high"
+
+
+def _split(fit, where):
+    row = {}
+    bend = fit["curvature"]
+    for name in _limits("curvature"):
+        row[f"{name}_{where}"] = bend.get(name)
+    known = {p["name"]: p for p in fit["predictors"] if "reason" not in p}
+    for name, predictor in known.items():
+        row[f"explained_{name}_{where}"] = predictor["explained_deviance"]
+        if name in ("reduced_radius", "grain_size"):
+            for part in ("", "_low", "_high"):
+                key = f"difference_to_branch_length{part}"
+                row[f"{name}_over_length{part}_{where}"] = predictor.get(key)
+    for name in ("branch_length", "reduced_radius"):
+        if name in known:
+            for part, key in (("", "estimate"), ("_low", "low"), ("_high", "high")):
+                value = known[name]["parameters"]["exponent"][key]
+                row[f"exponent_of_{name}{part}_{where}"] = value
+    # Of those with one exponent or two: the full surface is the ceiling, no rival.
+    scored = {
+        name: p["explained_deviance"]
+        for name, p in known.items()
+        if name != "surface" and p["explained_deviance"] is not None
+    }
+    row[f"best_predictor_{where}"] = max(scored, key=scored.get) if scored else None
+    return row
+
+
+def _lengths(numbers):
+    near = numbers["near_jamming"]
+    row = {
+        "distance_near": near["solid_fraction_above_jamming"],
+        "mean_length_near_m": near["mean_length_m"],
+    }
+    for prediction in near["predictions"]:
+        row[f"ks_{prediction['name']}_near"] = prediction["kolmogorov_smirnov"]
+    for prediction in numbers["end"]["predictions"]:
+        if prediction["name"] in ("random_contact", "parking", "configuration"):
+            row[f"ks_{prediction['name']}_end"] = prediction["kolmogorov_smirnov"]
+    for name in _limits("assortativity_of_radii"):
+        row[name] = numbers["end"].get(name)
+    return row
+
+
+def _coordination(numbers, states):
+    seeds = [seed for _, seed in states.groupby("seed_number")]
+    found = jamming_prefactor(
+        [seed["solid_fraction_above_jamming"] for seed in seeds],
+        [seed["mechanical_coordination_number"] for seed in seeds],
+        rng=np.random.default_rng(_RESAMPLING),
+    )
+    return {
+        "coordination_number_near": numbers["near_jamming"]["coordination_number"],
+        "rattler_fraction_near": numbers["near_jamming"]["rattler_fraction"],
+        "coordination_number_end": numbers["end"]["coordination_number"],
+        **dict(zip(_limits("jamming_law_prefactor"), found, strict=True)),
+    }
+
+
+def _shared(end):
+    shielding, forces = end["shielding"], end["forces"]
+    tails = {tail["threshold"]: tail for tail in forces["tails"]}
+    row = {name: shielding["branches"].get(name) for name in _limits("shielding_exponent")}
+    for name in ("largest_neighbour_ratio", "neighbour_ratio_from", "grains"):
+        row[f"shielding_{name}"] = shielding["grains"][name]
+    for reading in ("contact", "grain", "volume"):
+        for name in _limits(f"energy_per_{reading}"):
+            row[f"shielding_{name}"] = shielding["grains"][name]
+        row[f"shielding_claim_per_{reading}"] = shielding["grains"][f"claim_per_{reading}"]
+    for kind in ("all_grains", "load_bearing"):
+        for name in _limits(f"exponent_{kind}"):
+            row[f"grain_energy_{name}"] = shielding["grain_energy"].get(name)
+    for name in _limits("exponent"):
+        row[f"force_{name}"] = forces["by_length"].get(name)
+    for name in _limits("decay_rate"):
+        row[f"force_{name}_from_2"] = tails[2.0][name]
+    for name in _limits("squared_variation"):
+        row[f"force_tail_{name}_from_1"] = tails[1.0][name]
+    for kind in ("branches", "forces"):
+        for name in ("deviator_over_expected", "by_chance_low", "by_chance_high"):
+            row[f"fabric_{kind}_{name}"] = end["fabric"][kind][name]
+    for name in (*_limits("coarse_half_stress_share"), *_limits("sharing_index")):
+        row[name] = end["stress"][name]
+    return row
+
+
+def verdicts(rows):
+    """Return what the rows say together: which samples are on which side of each question.
+
+    Parameters
+    ----------
+    rows : list of dict
+        From `finding_row`.
+
+    Returns
+    -------
+    dict
+        Lists of names: `known` samples; three_<at_end, at_distance>_<holds, below, above>, by the
+        interval of n; `power_law_fails`, by that of the curvature; best_<predictor> at the end;
+        reduced_radius_better and grain_size_worse than branch length, by the paired interval;
+        lengths_good and lengths_bad, by the distance of random parking near jamming; and
+        claim_<reading>_<answer> of the shielding.
+    """
+    rows = [row for row in rows if not row["reason"]]
+    found = {"known": [row["sample"] for row in rows]}
+
+    def sort(key, row, condition):
+        found.setdefault(key, [])
+        if condition:
+            found[key].append(row["sample"])
+
+    for row in rows:
+        for place in ("at_end", "at_distance"):
+            low, high = (row[f"exponent_{place}{part}"] for part in ("_low", "_high"))
+            told = _told(low, high)
+            sort(f"three_{place}_holds", row, told and low <= PAPER <= high)
+            sort(f"three_{place}_below", row, told and high < PAPER)
+            sort(f"three_{place}_above", row, told and low > PAPER)
+        low, high = row["curvature_low_end"], row["curvature_high_end"]
+        sort("power_law_fails", row, _told(low, high) and not low <= 0.0 <= high)
+        for name in ("branch_length", "reduced_radius", "both_radii", "grain_size"):
+            sort(f"best_{name}", row, row["best_predictor_end"] == name)
+        low = row.get("reduced_radius_over_length_low_end")
+        sort("reduced_radius_better", row, _told(low) and low > 0.0)
+        high = row.get("grain_size_over_length_high_end")
+        sort("grain_size_worse", row, _told(high) and high < 0.0)
+        distance = row.get("ks_parking_near")
+        sort("lengths_good", row, _told(distance) and distance <= GOOD_DISTANCE)
+        sort("lengths_bad", row, _told(distance) and distance > GOOD_DISTANCE)
+        for reading in ("contact", "grain", "volume"):
+            for claim in ("supported", "contradicted", "undecided", "no such grain"):
+                key = f"claim_{reading}_{claim.replace(' ', '_')}"
+                sort(key, row, row[f"shielding_claim_per_{reading}"] == claim)
+    return found
+
+
+def _told(*values):
+    return all(value is not None and np.isfinite(value) for value in values)

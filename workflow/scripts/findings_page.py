@@ -1,0 +1,48 @@
+"""Draw all samples together, and write the page to judge them by."""
+
+from pathlib import Path
+
+from branchcrush.findings import verdicts
+from branchcrush.jobs import job
+from branchcrush.plotting import samples as plots
+from branchcrush.plotting.style import SIZE, figure, reason
+from branchcrush.report import render_findings
+from branchcrush.tables import read_table, write_text
+
+with job(snakemake.log[0]):
+    files, output, samples = snakemake.input, snakemake.output, snakemake.params.samples
+    styles, dpi = plots.sample_styles(samples), snakemake.params.dpi
+    rows, states = read_table(files.rows), read_table(files.states)
+    rows = rows.astype(object).where(rows.notna(), None)
+    known = rows[rows["reason"].isna()]
+
+    def tables(kind):
+        found = {name: read_table(path) for name, path in zip(samples, files[kind], strict=True)}
+        return {name: table for name, table in found.items() if "reason" not in table}
+
+    def draw(path, size, *panels):
+        with figure(path, dpi, size, (1, len(panels)), squeeze=False) as axes:
+            for ax, (plot, data, *rest) in zip(axes.flat, panels, strict=True):
+                plot(data, *rest, ax=ax) if len(data) else reason(ax, "no sample has any")
+
+    wide, tall = (2 * SIZE[0], 1.2 * SIZE[1]), (2 * SIZE[0], SIZE[1] + 0.16 * len(rows))
+    paths = tables("paths")
+    laws = dict.fromkeys(style["law"] for style in styles.values())
+    draw(output.exponents, wide, *((plots.plot_exponents, paths, styles, law) for law in laws))
+    for kind in ("lengths", "energies"):
+        draw(output[kind], tall, (plots.plot_samples, known, kind))
+    for name, first, second in (
+        ("coordination", (plots.plot_coordination, states), (plots.plot_jamming_law, states)),
+        (
+            "shielding",
+            (plots.plot_branch_shielding, tables("branches")),
+            (plots.plot_grain_shielding, tables("grains")),
+        ),
+        ("forces", (plots.plot_stress, tables("stress")), (plots.plot_forces, tables("forces"))),
+    ):
+        draw(output[name], wide, (*first, styles), (*second, styles))
+
+    figures = {name: output[name] for name in snakemake.params.figures}
+    records = rows.to_dict("records")
+    template = Path(files.template).read_text(encoding="utf-8")
+    write_text(output.page, render_findings(template, records, verdicts(records), figures))
