@@ -20,7 +20,7 @@ unexport PYTHONPATH PYTHONHOME
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality bench publish test lint lock clean
+.PHONY: help run preview example gallery quality findings bench publish test lint lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -58,6 +58,13 @@ quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.cs
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
 	$(MADE) > docs/results/quality_made.txt
+
+findings: $(READY) ## what the energy of a branch depends on, in five gradings: docs/energy_split.md, 50 minutes on 2 cores
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/energy_split
+	cp studies/energy_split/results/findings.csv studies/energy_split/results/exponents.csv docs/results
+	for figure in exponents lengths energies coordination shielding forces; do \
+	  $(SHRINK) studies/energy_split/results/figures/findings/$$figure.png docs/figures/findings_$$figure.png; done
+	$(MADE) > docs/results/findings_made.txt
 
 bench: $(READY) ## what it takes, beside other codes too: benchmarks/results/, on an idle machine
 	$(IN_ENVIRONMENT) python -m benchmarks $(PART)

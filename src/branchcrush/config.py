@@ -33,6 +33,7 @@ _TAKEN = (
     "findings",
     "comparison.csv",
     "coordination.csv",
+    "exponents.csv",
     "findings.csv",
     "findings.html",
     "report.html",

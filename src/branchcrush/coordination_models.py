@@ -214,13 +214,15 @@ def parking_contacts(radius, share):
             expected, bearing = _stable_binomial(room, touching)
             return share @ expected - ISOSTATIC * (share @ bearing)
 
-        # With p almost 0 whoever has four contacts has no more.
-        if excess(1.0) <= 0.0:
-            raise FitError("no grain of this grading can have more than six neighbours")
-        expected, bearing = _stable_binomial(room, brentq(excess, 1e-3, 1.0, xtol=1e-12))
+        # With p almost 0 whoever has four contacts has no more. On the way there may be no room.
+        full = excess(1.0) <= 0.0
+        touching = 1.0 if full else brentq(excess, 1e-3, 1.0, xtol=1e-12)
+        expected, bearing = _stable_binomial(room, touching)
         change = np.abs(expected - contacts).max()
         contacts = 0.5 * (contacts + expected)
         if change < _CONVERGED * contacts.max():
+            if full:
+                raise FitError("the grains of this grading have no room for six neighbours")
             return Coordination(expected, bearing)
     raise FitError("the contact numbers of this grading do not settle")
 

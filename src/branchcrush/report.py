@@ -64,13 +64,23 @@ def render_report(template, samples):
     str
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"image": _image, "interval": _interval, "number": _number}
+    environment.filters |= {
+        "image": _image,
+        "interval": _interval,
+        "number": _number,
+        "estimate": _estimate,
+    }
     # A result without data says why; the others have no reason to give.
     parts = ("fit", "model", "statistics")
     pages = [
         {**sample, **{part: {"reason": None, **sample[part]} for part in parts}}
         for sample in samples
     ]
+    for page in pages:
+        page["fit"]["predictors"] = [
+            {"reason": None, **predictor} for predictor in page["fit"].get("predictors", [])
+        ]
+        page["fit"]["curvature"] = {"reason": None, **page["fit"].get("curvature", {})}
     return environment.from_string(template).render(samples=pages, version=__version__)
 
 
@@ -93,15 +103,15 @@ def render_findings(template, rows, verdicts, figures):
     str
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"image": _image, "number": _number, "range": _range}
+    environment.filters |= {"image": _image, "number": _number, "estimate": _estimate}
     distance = next((row["distance"] for row in rows if not row["reason"]), None)
     return environment.from_string(template).render(
         rows=rows, verdicts=verdicts, distance=distance, figures=figures, version=__version__
     )
 
 
-def _range(row, name, form="%.2f"):
-    """Format an estimate of a row with its interval."""
+def _estimate(row, name, form="%.2f"):
+    """Format an estimate with its interval."""
     value, low, high = (row.get(name + part) for part in ("", "_low", "_high"))
     if value is None or value != value:
         return "none"

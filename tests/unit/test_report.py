@@ -27,7 +27,22 @@ FIT = {
     "rattler_fraction": 0.1,
     "reference_length_m": 1e-3,
     "cubic_r_squared": 0.99,
-    "predictors": [{"exponent": 3.05}],
+    "predictors": [
+        {
+            "name": "branch_length",
+            "formula": "A l^n",
+            "exponent": 3.05,
+            "parameters": {"exponent": {"estimate": 3.05, "low": 2.9, "high": 3.2}},
+            "explained_deviance": 0.1605,
+            "explained_deviance_low": 0.15,
+            "explained_deviance_high": 0.17,
+            "difference_to_branch_length": 0.0,
+            "difference_to_branch_length_low": 0.0,
+            "difference_to_branch_length_high": 0.0,
+        },
+        {"name": "surface", "formula": "quadratic", "reason": "not told apart"},
+    ],
+    "curvature": {"curvature": 0.46, "curvature_low": 0.22, "curvature_high": 0.7},
 }
 MODEL = {
     "theta": 0.891574,

@@ -4,10 +4,12 @@ import os
 
 import pytest
 
-FIGURES = {"packing_figures", "fit_figures", "report"}
-MODEL = {"thermodynamics", "comparison"} | FIGURES
-SPLIT = {"energy_split"} | MODEL
-BINS = {"branch_lengths", "verdict"} | SPLIT
+PAGE = {"findings_page"}
+FIGURES = {"packing_figures", "fit_figures", "network_figures", "report"} | PAGE
+MODEL = {"thermodynamics", "comparison", "packing_figures", "fit_figures", "report"}
+NETWORKS = {"branch_lengths", "sharing", "network_figures", "findings"} | PAGE
+SPLIT = {"energy_split"} | MODEL | NETWORKS
+BINS = {"verdict"} | SPLIT
 PACKING = {"compression", "grading", "certificate"} | BINS
 
 
@@ -46,6 +48,12 @@ def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules)
     ("file", "rules"),
     [
         ("src/branchcrush/plotting/energy.py", {"fit_figures", "report"}),
+        ("src/branchcrush/plotting/sharing.py", {"network_figures", "report"}),
+        ("src/branchcrush/findings.py", {"findings"} | PAGE),
+        (
+            "src/branchcrush/shielding.py",
+            {"sharing", "network_figures", "report", "findings"} | PAGE,
+        ),
         ("src/branchcrush/plotting/loading.py", {"packing_figures", "report"}),
         ("src/branchcrush/thermodynamics.py", MODEL),
         ("src/branchcrush/loading_path.py", PACKING),

@@ -148,6 +148,7 @@ rule findings:
         code=code("findings"),
     output:
         rows="results/findings.csv",
+        exponents="results/exponents.csv",
         states="results/coordination.csv",
     log:
         "logs/findings.log",

@@ -18,6 +18,8 @@ with job(snakemake.log[0]):
         states.append(coordination_rows(name, seeds, jamming))
         results = (read_json(files[kind][number]) for kind in ("fits", "numbers", "shared"))
         rows.append(finding_row(name, sample, *results, paths[number], states[-1], distance))
+    along = [path.assign(sample=name) for name, path in zip(samples, paths, strict=True)]
     origin = provenance(samples=list(samples))
     write_table(snakemake.output.rows, rows, origin)
+    write_table(snakemake.output.exponents, pd.concat(along, ignore_index=True), origin)
     write_table(snakemake.output.states, pd.concat(states, ignore_index=True), origin)

@@ -5,6 +5,7 @@ from pathlib import Path
 from branchcrush.findings import verdicts
 from branchcrush.jobs import job
 from branchcrush.plotting import samples as plots
+from branchcrush.plotting import samples_networks as networks
 from branchcrush.plotting.style import SIZE, figure, reason
 from branchcrush.report import render_findings
 from branchcrush.tables import read_table, write_text
@@ -32,13 +33,17 @@ with job(snakemake.log[0]):
     for kind in ("lengths", "energies"):
         draw(output[kind], tall, (plots.plot_samples, known, kind))
     for name, first, second in (
-        ("coordination", (plots.plot_coordination, states), (plots.plot_jamming_law, states)),
+        ("coordination", (networks.plot_coordination, states), (networks.plot_jamming_law, states)),
         (
             "shielding",
-            (plots.plot_branch_shielding, tables("branches")),
-            (plots.plot_grain_shielding, tables("grains")),
+            (networks.plot_branch_shielding, tables("branches")),
+            (networks.plot_grain_shielding, tables("grains")),
         ),
-        ("forces", (plots.plot_stress, tables("stress")), (plots.plot_forces, tables("forces"))),
+        (
+            "forces",
+            (networks.plot_stress, tables("stress")),
+            (networks.plot_forces, tables("forces")),
+        ),
     ):
         draw(output[name], wide, (*first, styles), (*second, styles))
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import MEASURED, MODEL, OTHER, axes
 
 # Of every predictor: what it is called, its colour and its marker.
 PREDICTORS = {
@@ -10,7 +10,7 @@ PREDICTORS = {
     "reduced_radius": ("reduced radius R*", OTHER, "D"),
     "both_radii": (r"$r_{min}^a\, r_{max}^b$", "#8a5aa5", "^"),
     "grain_size": ("grain size (Einav)", MODEL, "s"),
-    "surface": ("any smooth function of both", FAINT, "|"),
+    "surface": ("any smooth function of both", "#444444", "|"),
 }
 
 

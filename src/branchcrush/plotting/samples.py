@@ -5,11 +5,10 @@ from itertools import takewhile
 import numpy as np
 from matplotlib.lines import Line2D
 
-from branchcrush.coordination_laws import field, gray, jamming_law, smith
 from branchcrush.exponent_paths import PAPER
 from branchcrush.findings import GOOD_DISTANCE
 from branchcrush.plotting.predictors import PREDICTORS
-from branchcrush.plotting.style import FAINT, MODEL, axes
+from branchcrush.plotting.style import FAINT, axes
 from branchcrush.plotting.touching import PREDICTIONS
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
@@ -100,7 +99,7 @@ def plot_exponents(paths, styles, law, ax=None):
     ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
     ax.set(title=_LAWS[law], ylim=(0, max(4.2, top + 0.3)))
     shown = {n: s for n, s in styles.items() if n in paths and s["law"] == law}
-    ax.legend(handles=_handles(shown, lines=True), loc="lower right", ncols=2)
+    ax.legend(handles=legend_handles(shown, lines=True), loc="lower right", ncols=2)
     return ax
 
 
@@ -143,233 +142,20 @@ def plot_samples(rows, kind, ax=None):
     return ax
 
 
-def plot_coordination(states, styles, ax=None):
-    """Draw the coordination numbers of all states against void ratio, with historic relations.
+def legend_handles(styles, lines=False):
+    """Return what a legend shows: a colour for each grading, and the boundaries where they vary.
 
     Parameters
     ----------
-    states : DataFrame
-        `coordination.csv`.
     styles : dict
         From `sample_styles`.
-    ax : Axes, optional
+    lines : bool
+        Whether the boundaries are to be told.
 
     Returns
     -------
-    Axes
+    list of Line2D
     """
-    ax = axes(ax)
-    for name, rows in states.groupby("sample", sort=False):
-        color = styles[name]["color"]
-        ax.plot(
-            rows["void_ratio"], rows["coordination_number"], ".", ms=1.5, color=color, alpha=0.5
-        )
-        ax.plot(
-            rows["void_ratio"],
-            rows["mechanical_coordination_number"],
-            "o",
-            ms=2.5,
-            mfc="none",
-            mew=0.4,
-            color=color,
-            alpha=0.5,
-        )
-    e = np.linspace(states["void_ratio"].min(), states["void_ratio"].max(), 100)
-    curves = ((smith, "-", "Smith 1929"), (field, "--", "Field 1963"), (gray, ":", "Gray 1968"))
-    for relation, line, label in curves:
-        ax.plot(e, relation(e), line, color="black", lw=1.0, label=label)
-    ax.plot([], [], ".", color="black", label=r"$\kappa$, all grains")
-    ax.plot([], [], "o", mfc="none", color="black", label=r"$\kappa^*$, without rattlers")
-    ax.set(xlabel="void ratio e [-]", ylabel=r"coordination number [-]", ylim=(0, 14))
-    first = ax.legend(loc="upper right", ncols=2)
-    ax.add_artist(first)
-    ax.legend(handles=_handles(_of(states, styles)), loc="lower left", ncols=2)
-    return ax
-
-
-def plot_jamming_law(states, styles, ax=None):
-    """Draw the mechanical coordination number against the distance from jamming, with the law.
-
-    Parameters
-    ----------
-    states, styles, ax
-        As for `plot_coordination`.
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, rows in states.groupby("sample", sort=False):
-        style = styles[name]
-        excess = rows["mechanical_coordination_number"] - 6.0
-        kept = (rows["solid_fraction_above_jamming"] > 1e-3) & (excess > 0.05)
-        ax.plot(
-            rows.loc[kept, "solid_fraction_above_jamming"],
-            excess[kept],
-            "o" if style["line"] == "-" else "^",
-            ms=2.0,
-            mew=0.4,
-            mfc=style["color"] if style["filled"] else "none",
-            color=style["color"],
-            alpha=0.5,
-        )
-    x = np.geomspace(1e-3, max(0.2, states["solid_fraction_above_jamming"].max()), 50)
-    ax.plot(
-        x, jamming_law(x) - 6.0, color="black", label=r"$\kappa^* = 6 + 7.8\,\sqrt{\phi-\phi_J}$"
-    )
-    ax.plot([], [], "o", color="black", label="periodic (filled: linear, open: Hertz)")
-    ax.plot([], [], "^", color="black", label="walls (contacts with them count)")
-    ax.set(xscale="log", yscale="log", xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]")
-    ax.set(ylabel=r"$\kappa^* - 6$ [-]")
-    ax.legend(loc="upper left")
-    return ax
-
-
-def plot_branch_shielding(tables, styles, ax=None):
-    """Draw the energy of branches of equal length against the ratio of their radii, at the end.
-
-    Parameters
-    ----------
-    tables : dict of DataFrame
-        `shielding_branches.csv` by sample.
-    styles : dict
-        From `sample_styles`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, rows in _ends(tables):
-        rows = rows[rows["branches"] >= 20]
-        _line(ax, rows["mean_radius_ratio"], rows["energy_ratio"], styles[name])
-    ax.axhline(1.0, color=FAINT, lw=0.8)
-    ax.set(xlabel=r"ratio of the radii $r_{min}/r_{max}$ [-]", xlim=(0, 1.02), ylim=(0, None))
-    ax.set_ylabel("energy over that of all of its length [-]")
-    ax.legend(handles=_handles({name: styles[name] for name in tables}), loc="lower right", ncols=2)
-    return ax
-
-
-def plot_grain_shielding(tables, styles, ax=None):
-    """Draw the energy of grains per volume against their radius over their neighbours', at the end.
-
-    Parameters
-    ----------
-    tables : dict of DataFrame
-        `shielding_grains.csv` by sample.
-    styles : dict
-        From `sample_styles`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, rows in _ends(tables):
-        rows = rows[(rows["grains_counted"] == "all") & (rows["grains"] >= 10)]
-        _line(ax, rows["mean_neighbour_ratio"], rows["energy_per_volume"], styles[name])
-    ax.axhline(1.0, color=FAINT, lw=0.8)
-    ax.axvline(10.0, color=MODEL, lw=0.8, ls="--")
-    ax.axhline(0.1, color=MODEL, lw=0.8, ls="--", label="the claim: below 0.1 from 10 on")
-    ax.set(xscale="log", xlabel=r"radius over neighbours' mean $R/\langle R\rangle_{nb}$ [-]")
-    ax.set(yscale="log", ylabel="energy per volume over the mean [-]")
-    ax.set_ylim(0.02, max(5.0, ax.get_ylim()[1]))
-    ax.legend(loc="lower left")
-    return ax
-
-
-def plot_stress(tables, styles, ax=None):
-    """Draw how far the cumulative stress is from the cumulative volume, finest grains first.
-
-    Parameters
-    ----------
-    tables : dict of DataFrame
-        `stress_sharing.csv` by sample.
-    styles : dict
-        From `sample_styles`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, rows in _ends(tables):
-        style = styles[name]
-        more = rows["stress_share"] - rows["volume_share"]
-        ax.plot(rows["volume_share"], more, style["line"], color=style["color"], lw=0.9)
-    ax.axhline(0.0, color=FAINT, lw=0.8)
-    ax.set(
-        xlabel="share x of the solid volume, finest first [-]",
-        ylabel="share of the stress less x [-]",
-    )
-    low, high = ax.get_ylim()
-    ax.set(xlim=(0, 1), ylim=(low, high + 0.35 * (high - low)))
-    ax.legend(
-        handles=_handles({name: styles[name] for name in tables}, lines=True),
-        loc="upper right",
-        ncols=2,
-    )
-    return ax
-
-
-def plot_forces(tables, styles, ax=None):
-    """Draw the distribution of forces of all samples at the end of the loading.
-
-    Parameters
-    ----------
-    tables : dict of DataFrame
-        `force_distribution.csv` by sample.
-    styles : dict
-        From `sample_styles`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, rows in _ends(tables):
-        rows, style = rows[rows["contacts"] >= 5], styles[name]
-        middle = (rows["force_low"] + rows["force_high"]) / 2.0
-        ax.plot(middle, rows["density"], style["line"], color=style["color"], lw=0.8)
-    f = np.linspace(0.0, 6.0, 50)
-    ax.plot(f, np.exp(-f), ":", color="black", label=r"$e^{-f}$")
-    ax.set(
-        xlabel=r"normal force $f = F/\langle F\rangle$ [-]", ylabel="density P(f) [-]", yscale="log"
-    )
-    ax.set(xlim=(0, None))
-    ax.legend(loc="upper right")
-    return ax
-
-
-def _ends(tables):
-    return ((name, table[table["where"] == "end"]) for name, table in tables.items())
-
-
-def _line(ax, x, y, style):
-    ax.plot(
-        x,
-        y,
-        "o",
-        ls=style["line"],
-        lw=0.8,
-        ms=2.5,
-        color=style["color"],
-        mfc=style["color"] if style["filled"] else "none",
-        alpha=0.8,
-    )
-
-
-def _of(states, styles):
-    return {name: styles[name] for name in states["sample"].unique()}
-
-
-def _handles(styles, lines=False):
-    """Return what a legend shows: a colour for each grading, and the boundaries where they vary."""
     colours = {style["grading"]: style["color"] for style in styles.values()}
     marks = [Line2D([], [], color=color, label=name) for name, color in colours.items()]
     kinds = {style["line"] for style in styles.values()}

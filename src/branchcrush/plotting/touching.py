@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
 
 # Of every prediction: what it is called, its colour and its marker.
 PREDICTIONS = {
@@ -80,10 +80,12 @@ def plot_pairs(table, summary, radius_max, ax=None):
     ax = axes(ax)
     end = summary["end"]
     rows = table[table["state"] == end["state"]]
+    if rows["radius_i_low_m"].nunique() < 2:
+        return reason(ax, "grains of one radius")
     # Few contacts say nothing of their ratio.
     ratio = rows["ratio"].where(rows["expected_contacts"] >= 20).to_numpy()
     edges = np.append(rows["radius_j_low_m"].unique(), rows["radius_j_high_m"].max()) / radius_max
-    spread = max(np.nanmax(np.abs(np.log2(np.maximum(ratio, 0.25)))), 0.2)
+    spread = np.nanmax(np.abs(np.log2(np.maximum(np.append(ratio, 2.0**0.2), 0.25))))
     drawn = ax.pcolormesh(
         edges,
         edges,
