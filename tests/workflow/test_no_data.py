@@ -90,7 +90,7 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
         assert f"No exponent: {text}." in page
         assert f"No curves: {text}." in page
     assert "1 of 1 packings carry no load at the end of their loading" in page
-    # Grading, packing and path of both; certificate, branches and network of the grains of one size.
+    # Grading, packing and path of both; certificate, branches, network of the grains of one size.
     assert page.count("data:image/png;base64,") == 10
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
     for name in ("alike", "loose"):
