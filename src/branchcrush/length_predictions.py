@@ -81,14 +81,15 @@ def grading_nodes(grading):
     elif grading.is_discrete:
         return single, single_share
     levels = np.linspace(0.0, 1.0, _CELLS + 1)[1:-1]
-    smallest, largest = grading.support()
-    inner = np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)])
-    # Below the smallest: the first cell takes what is there, as the others take their upper end.
-    edges = np.unique(np.concatenate([[np.nextafter(smallest, 0.0)], inner, [largest]]))
-    share = grading.number_between(edges[:-1], edges[1:])
-    share -= np.histogram(-single, -edges[::-1], weights=single_share)[0][::-1]
+    inner = np.unique(np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)]))
+    # The nodes' last ones are the single radii, which are cut into cells only when they are many.
+    nodes, weight = grading.quadrature(breaks=inner)
+    cut = nodes.size - single.size
+    cell = np.searchsorted(inner, nodes[:cut])
+    share, sums = (np.bincount(cell, w) for w in (weight[:cut], weight[:cut] * nodes[:cut]))
     kept = share > 1e-15
-    radius = np.append((edges[:-1] + edges[1:])[kept] / 2.0, single)
+    # Means, not middles: the last cell of a long tail reaches far beyond the grains in it.
+    radius = np.append(sums[kept] / share[kept], single)
     share = np.append(share[kept], single_share)
     return radius, share / share.sum()
 

@@ -34,7 +34,12 @@ def summary(results):
             f"{row.solid_fraction:.3f}"
         )
     return "\n".join(
-        [*lines, f"report:  {results / 'report.html'}", f"figures: {results / 'figures'}"]
+        [
+            *lines,
+            f"report:   {results / 'report.html'}",
+            f"findings: {results / 'findings.html'}",
+            f"figures:  {results / 'figures'}",
+        ]
     )
 
 

@@ -53,6 +53,7 @@ def test_model_without_data_leaves_the_exponent(written):
 
 def test_report_and_figures_are_named(written, tmp_path):
     assert written(ROW)[1:] == [
-        f"report:  {tmp_path / 'report.html'}",
-        f"figures: {tmp_path / 'figures'}",
+        f"report:   {tmp_path / 'report.html'}",
+        f"findings: {tmp_path / 'findings.html'}",
+        f"figures:  {tmp_path / 'figures'}",
     ]
