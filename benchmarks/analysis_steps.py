@@ -226,6 +226,7 @@ def _rules(runs, settings, study, resamples):
             "predictions": f"results/{name}/length_predictions.csv",
             "numbers": f"results/{name}/contact_numbers.csv",
             "pairs": f"results/{name}/contact_pairs.csv",
+            "coordination": f"results/{name}/coordination.csv",
             "touching": f"results/{name}/contact_numbers.json",
         },
         "params": {"sample": settings, "bins": bins, "intervals": intervals},

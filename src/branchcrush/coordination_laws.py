@@ -13,6 +13,9 @@ from branchcrush.intervals import pooled_interval
 JAMMING_PREFACTOR = 7.8
 # Nearer, the jamming point's own uncertainty counts; farther, overlaps are large.
 _NEAREST, _FARTHEST = 0.003, 0.1
+_MIDDLE = np.log(np.sqrt(_NEAREST * _FARTHEST))
+# Of phi_J: farther, phi - phi_J is known to a fifth and its root to a tenth.
+_UNCERTAINTIES = 5.0
 
 
 def smith(void_ratio):
@@ -122,42 +125,108 @@ def jamming_law(above_jamming, prefactor=JAMMING_PREFACTOR):
     return ISOSTATIC + prefactor * np.sqrt(above_jamming)
 
 
-def jamming_prefactor(above_jamming, coordination, *, confidence=0.95, resamples=2000, rng):
-    r"""Return the prefactor of the jamming law of some packings, by least squares.
+def isostatic_number(network):
+    r"""Return the mechanical coordination number that just holds a packing.
 
-    .. math:: a = \frac{\sum (\kappa^* - 6) \sqrt{\phi - \phi_J}}{\sum (\phi - \phi_J)}
+    .. math:: \kappa^*_{iso} = 6 - W^*/N^*
 
-    Over the states from 0.003 to 0.1 above jamming.
+    N* grains that are no rattlers have 3 N* equations of balance for the forces of M* contacts and
+    W* contacts with walls. M* + W* = 3 N* makes (2 M* + W*)/N* less than 6 between walls, since a
+    contact with a wall is an end of one grain only.
+
+    Parameters
+    ----------
+    network : networks.Network
+
+    Returns
+    -------
+    float
+        6 in a periodic cell; nan when all grains are rattlers.
+    """
+    bearing = ~network.rattlers
+    if not bearing.any():
+        return float("nan")
+    return float(ISOSTATIC - network.wall_contacts[bearing].sum() / bearing.sum())
+
+
+def jamming_law_fit(
+    above_jamming,
+    coordination,
+    uncertainty=None,
+    isostatic=None,
+    *,
+    confidence=0.95,
+    resamples=2000,
+    rng,
+):
+    r"""Return the jamming law of some packings with the exponent 1/2, and with a free one.
+
+    .. math:: \kappa^* - \kappa^*_{iso} = a \sqrt{\phi - \phi_J}, \qquad
+        \kappa^* - \kappa^*_{iso} = b\, (\phi - \phi_J)^{\nu}
+
+    a by least squares, b and nu by least squares of the logarithms, over the states of each seed
+    from 0.003, or from five times the uncertainty of its phi_J if that is more, to 0.1 above
+    jamming. nu leaves out states that are not above isostatic; `states_not_above` counts them, and
+    many say that the isostatic number or phi_J is wrong.
 
     Parameters
     ----------
     above_jamming : list of array_like
-        phi - phi_J of the states of each seed, with its own phi_J [-].
+        phi - phi_J of the states of each seed, or sample, with its own phi_J [-].
     coordination : list of array_like
         kappa* of these states [-].
+    uncertainty : array_like, shape (S,), optional
+        Of each phi_J, one standard deviation; nan is taken as 0 [-].
+    isostatic : list of array_like, optional
+        `isostatic_number` of these states; 6 without it, which is right in a periodic cell.
     confidence, resamples, rng
         As for `intervals.pooled_interval`.
 
     Returns
     -------
-    Interval
-        nan when no state is in the range.
+    dict
+        prefactor a and exponent nu, with _low and _high, and free_prefactor b; nan where no state
+        or a single distance is in the range; states, states_not_above.
 
     Examples
     --------
-    >>> x = np.array([0.01, 0.04])
-    >>> round(jamming_prefactor([x], [6.0 + 8.0 * np.sqrt(x)], rng=None).estimate, 9)
-    8.0
+    >>> x = np.array([0.01, 0.02, 0.04])
+    >>> fit = jamming_law_fit([x], [6.0 + 8.0 * x**0.5], rng=None)
+    >>> round(fit["prefactor"], 9), round(fit["exponent"], 9), fit["states"]
+    (8.0, 0.5, 3)
     """
-    sums = []
-    for above, number in zip(above_jamming, coordination, strict=True):
-        above, number = np.asarray(above, dtype=float), np.asarray(number, dtype=float)
-        near = (above >= _NEAREST) & (above <= _FARTHEST)
-        root = np.sqrt(above[near])
-        sums.append([(number[near] - ISOSTATIC) @ root, root @ root])
+    seeds = len(above_jamming)
+    uncertainty = np.zeros(seeds) if uncertainty is None else np.nan_to_num(uncertainty)
+    isostatic = [ISOSTATIC] * seeds if isostatic is None else isostatic
+    sums, states, not_above = [], 0, 0
+    for x, number, error, least in zip(
+        above_jamming, coordination, uncertainty, isostatic, strict=True
+    ):
+        x, excess = np.asarray(x, dtype=float), np.asarray(number, dtype=float) - least
+        near = (x >= max(_NEAREST, _UNCERTAINTIES * error)) & (x <= _FARTHEST)
+        x, excess = x[near], excess[near]
+        positive = excess > 0.0
+        # About the middle of the range, so that the spread of the logarithms is no difference of
+        # large numbers.
+        u, v = np.log(x[positive]) - _MIDDLE, np.log(excess[positive])
+        sums.append([excess @ np.sqrt(x), x.sum(), u.size, u.sum(), v.sum(), u @ u, u @ v])
+        states, not_above = states + x.size, not_above + int(np.sum(~positive))
 
-    def ratio(totals):
+    def laws(totals):
+        product, square, number, u, v, uu, uv = totals.T
         with np.errstate(invalid="ignore", divide="ignore"):
-            return totals[:, 0] / totals[:, 1]
+            spread = number * uu - u**2
+            # Zero but for rounding where all states are at one distance.
+            spread = np.where(spread > 1e-9 * number**2, spread, np.nan)
+            exponent = (number * uv - u * v) / spread
+            free = np.exp((v - exponent * u) / number - exponent * _MIDDLE)
+            return np.stack([product / square, exponent, free], axis=1)
 
-    return pooled_interval(sums, ratio, confidence=confidence, resamples=resamples, rng=rng)
+    limits = pooled_interval(sums, laws, confidence=confidence, resamples=resamples, rng=rng)
+    found = {"states": states, "states_not_above": not_above}
+    for part, values in zip(("", "_low", "_high"), limits, strict=True):
+        for name, value in zip(("prefactor", "exponent"), values, strict=False):
+            found[name + part] = float(value)
+    # Without limits: it is the law's value at phi - phi_J = 1, far from all states.
+    found["free_prefactor"] = float(limits.estimate[2])
+    return found

@@ -18,8 +18,6 @@ _SMALLEST = 3.0
 # The share of a surface that discs cover when they are put there at random, one after another,
 # until none fits any more.
 PARKING_COVERAGE = 0.547
-# Probabilities of touching so low that hardly any grain has four contacts, unless it is huge.
-_SELDOM = 1e-3 * 2.0 ** np.arange(10)
 _ITERATIONS = 500
 _CONVERGED = 1e-9
 
@@ -188,7 +186,8 @@ def parking_contacts(radius, share):
     Raises
     ------
     FitError
-        When hardly any grain can have four contacts.
+        When there is no room for six neighbours, or when the contact numbers do not settle, as
+        with two sizes where the coarse ones are about to carry all the load.
 
     Examples
     --------
@@ -216,9 +215,10 @@ def parking_contacts(radius, share):
             expected, bearing = _stable_binomial(room, touching)
             return share @ expected - ISOSTATIC * (share @ bearing)
 
-        # With p almost 0 whoever has four contacts has no more. On the way there may be no room.
+        # With p almost 0, one contact for the largest, whoever has four contacts has no more. On
+        # the way there may be no room.
         full = excess(1.0) <= 0.0
-        touching = 1.0 if full else brentq(excess, _fewest(excess, room), 1.0, xtol=1e-12)
+        touching = 1.0 if full else brentq(excess, 1.0 / room.max(), 1.0, xtol=1e-12)
         expected, bearing = _stable_binomial(room, touching)
         change = np.abs(expected - contacts).max()
         contacts = 0.5 * (contacts + expected)
@@ -226,16 +226,6 @@ def parking_contacts(radius, share):
             if full:
                 raise FitError("the grains of this grading have no room for six neighbours")
             return Coordination(expected, bearing)
-    raise FitError("the contact numbers of this grading do not settle")
-
-
-def _fewest(excess, room):
-    """Return a probability of touching that gives stable grains fewer than six contacts."""
-    # Below the last no grain has one contact on average. Single huge grains ask for more than the
-    # first.
-    for touching in (*_SELDOM, 1.0 / room.max()):
-        if excess(touching) < 0.0:
-            return touching
     raise FitError("the contact numbers of this grading do not settle")
 
 

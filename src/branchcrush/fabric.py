@@ -3,6 +3,35 @@
 import numpy as np
 
 
+def branch_vectors(frame):
+    r"""Return the branch vectors of a frame of the pair dump in the order of the contacts table.
+
+    LAMMPS lists contacts in an order of its own. `loading_path.state_contacts`, and so a
+    `networks.Network`, has them sorted by grain; forces of the one must not weigh vectors of the
+    other.
+
+    Parameters
+    ----------
+    frame : dict of array_like, shape (M,)
+        id1, id2, branch, branch_x, branch_y and branch_z, as `lammps_files.read_dump`.
+
+    Returns
+    -------
+    ndarray, shape (M, 3)
+        [m]
+
+    Examples
+    --------
+    >>> frame = {"id1": [3, 2], "id2": [2, 1], "branch": [5.0, 1.0],
+    ...          "branch_x": [3.0, 1.0], "branch_y": [4.0, 0.0], "branch_z": [0.0, 0.0]}
+    >>> branch_vectors(frame).tolist()
+    [[1.0, 0.0, 0.0], [3.0, 4.0, 0.0]]
+    """
+    ends = np.sort([frame["id1"], frame["id2"]], axis=0)
+    order = np.lexsort((frame["branch"], ends[1], ends[0]))
+    return np.column_stack([frame[f"branch_{axis}"] for axis in "xyz"])[order]
+
+
 def fabric_tensor(vectors, weights=None):
     r"""Return the fabric tensor of branches, or of their forces.
 
@@ -108,21 +137,51 @@ def expected_deviator(branches):
     return float(1.0 / np.sqrt(branches))
 
 
-def fabric_result(vectors, forces, *, confidence=0.95):
-    r"""Return the fabric of every seed, and whether it is as isotropic as chance allows.
+def chance_range(seeds, confidence=0.95):
+    r"""Return the range by chance of the deviator over the expected one, root mean square of seeds.
 
     .. math:: \frac{1}{S} \sum_s \frac{q_s^2}{\langle q^2 \rangle_s} \sim \frac{\chi^2_{5S}}{5S}
 
-    for independent branches: a symmetric tensor without trace has five components. The branches of
-    one grain keep away from each other, so a packing at rest is evener than chance; contact
-    networks that lean one way are less even.
+    A symmetric tensor without trace has five components, which for many independent branches are
+    normal, alike and independent.
+
+    Parameters
+    ----------
+    seeds : int
+        S.
+    confidence : float
+
+    Returns
+    -------
+    low, high : float
+
+    Examples
+    --------
+    >>> [round(limit, 3) for limit in chance_range(1)]
+    [0.408, 1.602]
+    """
+    from scipy.special import gammaincinv  # slow to import, and few jobs need it
+
+    tails = np.array([(1.0 - confidence) / 2.0, (1.0 + confidence) / 2.0])
+    # The chi-square law of k degrees of freedom is twice a gamma law of shape k/2.
+    shape = 2.5 * seeds
+    low, high = np.sqrt(gammaincinv(shape, tails) / shape)
+    return float(low), float(high)
+
+
+def fabric_result(vectors, forces, *, confidence=0.95):
+    r"""Return the fabric of every seed, and whether it is as isotropic as chance allows.
+
+    Independent branches would be in `chance_range`. The branches of one grain keep away from each
+    other, so a packing at rest is evener than chance; contact networks that lean one way are less
+    even.
 
     Parameters
     ----------
     vectors : list of array_like, shape (M, 3)
         Branch vectors of each seed [m].
     forces : list of array_like, shape (M,)
-        Normal forces [N].
+        Normal forces, in the same order [N].
     confidence : float
         Of the range by chance.
 
@@ -136,8 +195,6 @@ def fabric_result(vectors, forces, *, confidence=0.95):
         range by chance (low, high), and the deviator of the mean tensor of all seeds with what
         chance gives it.
     """
-    from scipy.special import gammaincinv  # slow to import, and few jobs need it
-
     rows, tensors, branches = [], {"branches": [], "forces": []}, {"branches": [], "forces": []}
     for vector, force in zip(vectors, forces, strict=True):
         row = {"branches": len(force)}
@@ -149,18 +206,15 @@ def fabric_result(vectors, forces, *, confidence=0.95):
             tensors[kind].append(tensor)
             branches[kind].append(number)
         rows.append(row)
-    freedom = 5 * len(rows)
-    tails = np.array([(1.0 - confidence) / 2.0, (1.0 + confidence) / 2.0])
-    # The chi-square law of k degrees of freedom is twice a gamma law of shape k/2.
-    low, high = np.sqrt(2.0 * gammaincinv(freedom / 2.0, tails) / freedom)
+    low, high = chance_range(len(rows), confidence)
     summary = {}
     for kind in tensors:
         single = deviator(np.array(tensors[kind])) ** 2 * np.array(branches[kind])
         noise = np.sqrt(np.sum(1.0 / np.array(branches[kind]))) / len(rows)
         summary[kind] = {
             "deviator_over_expected": float(np.sqrt(single.mean())),
-            "by_chance_low": float(low),
-            "by_chance_high": float(high),
+            "by_chance_low": low,
+            "by_chance_high": high,
             "deviator_of_mean": float(deviator(np.mean(tensors[kind], axis=0))),
             "expected_deviator_of_mean": float(noise),
         }

@@ -1,50 +1,13 @@
 """All samples of a study beside each other: what their numbers say together."""
 
 import numpy as np
-import pandas as pd
 
-from branchcrush.coordination_laws import jamming_prefactor
+from branchcrush.coordination_laws import jamming_law_fit
 from branchcrush.exponent_paths import PAPER, at_distance, crossing
 
 # How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
 GOOD_DISTANCE = 0.06
 _RESAMPLING = 24
-
-
-def coordination_rows(name, paths, jamming):
-    """Return the coordination numbers of every loaded state on the way in, of every seed.
-
-    Parameters
-    ----------
-    name : str
-        Of the sample.
-    paths : list of DataFrame
-        `path.csv` of each seed.
-    jamming : array_like
-        phi_J of each seed, nan where it is unknown [-].
-
-    Returns
-    -------
-    DataFrame
-        sample, seed_number, state, solid_fraction, solid_fraction_above_jamming, void_ratio,
-        coordination_number, mechanical_coordination_number, rattler_fraction.
-    """
-    columns = [
-        "state",
-        "solid_fraction",
-        "void_ratio",
-        "coordination_number",
-        "mechanical_coordination_number",
-        "rattler_fraction",
-    ]
-    parts = []
-    for number, (path, point) in enumerate(zip(paths, jamming, strict=True)):
-        loaded = path.loc[path["carries_load"] & (path["leg"] == "loading"), columns]
-        loaded = loaded.assign(solid_fraction_above_jamming=loaded["solid_fraction"] - point)
-        loaded.insert(0, "seed_number", number)
-        loaded.insert(0, "sample", name)
-        parts.append(loaded)
-    return pd.concat(parts, ignore_index=True)
 
 
 def finding_row(name, settings, fit, numbers, shared, path, states, distance):
@@ -60,7 +23,7 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance):
     path : DataFrame
         `energy_split_path.csv`.
     states : DataFrame
-        From `coordination_rows`.
+        `coordination.csv` of the sample.
     distance : float
         From `exponent_paths.common_distance` [-].
 
@@ -142,23 +105,32 @@ def _lengths(numbers):
 
 def _coordination(numbers, states):
     seeds = [seed for _, seed in states.groupby("seed_number")]
-    found = jamming_prefactor(
+    found = jamming_law_fit(
         [seed["solid_fraction_above_jamming"] for seed in seeds],
         [seed["mechanical_coordination_number"] for seed in seeds],
+        isostatic=[seed["isostatic_number"] for seed in seeds],
         rng=np.random.default_rng(_RESAMPLING),
     )
+    laws = {
+        f"jamming_law_{name}": found[name]
+        for kind in ("prefactor", "exponent")
+        for name in _limits(kind)
+    }
     return {
         "coordination_number_near": numbers["near_jamming"]["coordination_number"],
         "rattler_fraction_near": numbers["near_jamming"]["rattler_fraction"],
         "coordination_number_end": numbers["end"]["coordination_number"],
-        **dict(zip(_limits("jamming_law_prefactor"), found, strict=True)),
+        **laws,
     }
 
 
 def _shared(end):
     shielding, forces = end["shielding"], end["forces"]
     tails = {tail["threshold"]: tail for tail in forces["tails"]}
-    row = {name: shielding["branches"].get(name) for name in _limits("shielding_exponent")}
+    branches = shielding["branches"]
+    row = {name: branches.get(name) for name in _limits("shielding_exponent")}
+    for name in (*_limits("unequal_over_equal"), "radius_ratio_to", "unequal_branches"):
+        row[f"shielding_{name}"] = branches.get(name)
     for name in ("largest_neighbour_ratio", "neighbour_ratio_from", "grains"):
         row[f"shielding_{name}"] = shielding["grains"][name]
     for reading in ("contact", "grain", "volume"):

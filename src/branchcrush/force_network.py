@@ -8,8 +8,6 @@ from branchcrush.intervals import pooled_interval
 
 # Narrow enough to show the peak below the mean force.
 _BIN = 0.25
-# Beyond this many mean forces there is one bin: hardly a contact is there.
-_LAST = 8.0
 # Where tails begin, in mean forces.
 THRESHOLDS = (1.0, 2.0, 3.0)
 
@@ -49,8 +47,8 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
     Returns
     -------
     dict of ndarray
-        force_low and force_high over the mean force, contacts, density with _low and _high. The
-        last bin ends at the largest force.
+        force_low and force_high over the mean force, contacts, density with _low and _high, in
+        equal bins up to the one of the largest force.
 
     Examples
     --------
@@ -59,9 +57,7 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
     ([2.0, 0.0], 4)
     """
     largest = max((np.max(force, initial=0.0) for force in forces), default=0.0)
-    edges = np.arange(0.0, min(largest, _LAST) + _BIN, _BIN)
-    if largest > edges[-1]:
-        edges = np.append(edges, largest)
+    edges = np.arange(0.0, largest + _BIN, _BIN)
     counts = np.array([np.histogram(force, edges)[0] for force in forces])
 
     def density(totals):
@@ -75,6 +71,36 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
         "contacts": counts.sum(axis=0),
         **dict(zip(("density", "density_low", "density_high"), found, strict=True)),
     }
+
+
+def share_below_mean(forces, *, confidence=0.95, resamples=2000, rng):
+    r"""Return the share of the contacts with less than the mean force.
+
+    Parameters
+    ----------
+    forces : list of array_like
+        Relative forces of each seed [-].
+    confidence, resamples, rng
+        As for `intervals.pooled_interval`.
+
+    Returns
+    -------
+    Interval
+        [-]; 1 - 1/e for exponential forces, 1/2 for forces as much above the mean as below.
+
+    Examples
+    --------
+    >>> share_below_mean([[0.5, 0.5, 2.0]], rng=None).estimate
+    0.6666666666666666
+    """
+    sums = [(np.count_nonzero(np.asarray(force) < 1.0), len(force)) for force in forces]
+    return pooled_interval(
+        sums,
+        lambda totals: totals[:, 0] / np.maximum(totals[:, 1], 1.0),
+        confidence=confidence,
+        resamples=resamples,
+        rng=rng,
+    )
 
 
 def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
@@ -174,3 +200,42 @@ def force_by_length(networks, edges, *, confidence=0.95, resamples=2000, rng):
         "branches": sums[:, 0].sum(axis=0).astype(int),
         **dict(zip(("mean_force", "mean_force_low", "mean_force_high"), found, strict=True)),
     }, exponent
+
+
+def force_network_result(networks, edges, *, confidence=0.95, resamples=2000, rng):
+    r"""Return all that this module tells of the forces of a sample in one state.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    edges : array_like, shape (n+1,)
+        Bins of branch length [m].
+    confidence, resamples, rng
+        As for `intervals.pooled_interval`.
+
+    Returns
+    -------
+    tables : dict of dict of ndarray
+        force_distribution and force_by_length.
+    summary : dict
+        share_below_mean with _low and _high; tails, one a threshold, as `force_tail`; by_length,
+        the exponent with _low and _high, empty where the lengths bear no power law.
+    """
+    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    forces = [relative_forces(network.force) for network in networks]
+    by_length, exponent = force_by_length(networks, edges, **options)
+    below = share_below_mean(forces, **options)
+    tables = {
+        "force_distribution": force_distribution(forces, **options),
+        "force_by_length": by_length,
+    }
+    return tables, {
+        **_named("share_below_mean", below),
+        "tails": [force_tail(forces, threshold, **options) for threshold in THRESHOLDS],
+        "by_length": {} if exponent is None else _named("exponent", exponent),
+    }
+
+
+def _named(name, interval):
+    return {name + part: value for part, value in zip(("", "_low", "_high"), interval, strict=True)}

@@ -15,6 +15,8 @@ _ITERATIONS = 100
 _CONVERGED = 1e-8
 # Columns less apart than this, relative, cannot be told from each other.
 _INDEPENDENT = 1e-9
+# By how much parameters are shifted for the second derivatives of a design that is not linear.
+_SHIFT = 1e-4
 # How many branches are taken at a time: what is made of them stays in the processor's cache.
 _PIECE = 1 << 14
 
@@ -24,7 +26,10 @@ class GammaFit(NamedTuple):
 
     parameters: np.ndarray  # the first is the logarithm of the scale, shape (p,)
     scores: np.ndarray  # shape (S, p)
-    information: np.ndarray  # shape (S, p, p)
+    # Minus the derivatives of the scores by the parameters, shape (S, p, p).
+    information: np.ndarray
+    # Sums over the branches of the second derivatives of eta, 0 where it is linear, (S, p, p).
+    bends: np.ndarray
 
 
 def gamma_fit(seeds, design, start=None):
@@ -89,7 +94,7 @@ def gamma_fit(seeds, design, start=None):
         step = _solved(whole, scores.sum(axis=0))
         step *= min(1.0, 2.0 / np.abs(step).max(initial=1e-300))
         if np.abs(step).max() < _CONVERGED:
-            return GammaFit(theta + step, scores, information)
+            return GammaFit(theta + step, scores, *_curved(seeds, design, theta, information))
         theta = theta + step
     raise FitError("the fit did not settle: too few branches carry energy")
 
@@ -120,6 +125,24 @@ def _sums(seeds, design, theta):
     return loss, scores, information
 
 
+def _curved(seeds, design, theta, information):
+    """Return information and bends, the second derivatives of eta taken into account."""
+    bends = np.zeros_like(information)
+    *columns, _ = max(seeds, key=lambda seed: seed[-1].size)
+    columns = [column[:_PIECE] for column in columns]
+    if np.array_equal(design(theta, *columns)[1], design(theta + _SHIFT, *columns)[1]):
+        return information, bends
+    information = information.copy()
+    for k in range(1, theta.size):
+        shift = _SHIFT * (np.arange(theta.size) == k)
+        (_, below, less), (_, above, more) = (
+            _sums(seeds, design, theta + side * shift) for side in (-1.0, 1.0)
+        )
+        information[:, :, k] = (below - above) / (2.0 * _SHIFT)
+        bends[:, :, k] = ((more[:, 0] - above) - (less[:, 0] - below)) / (2.0 * _SHIFT)
+    return ((x + np.swapaxes(x, 1, 2)) / 2.0 for x in (information, bends))
+
+
 def _pieces(number):
     return (slice(start, start + _PIECE) for start in range(0, number, _PIECE))
 
@@ -127,10 +150,13 @@ def _pieces(number):
 def parameter_intervals(fit, transform=None, *, confidence=0.95, resamples=2000, rng):
     r"""Return the parameters with their intervals from resampling seeds.
 
-    .. math:: \theta^* = \hat\theta + \Big(\sum_s w_s A_s\Big)^{-1} \sum_s w_s g_s
+    .. math:: \theta^* = \hat\theta + (\ln\rho, 0, \ldots)
+        + \Big(\sum_s w_s A_s(\rho)\Big)^{-1} \sum_s w_s g_s(\rho), \qquad
+        \rho = \frac{\sum_s w_s \sum_b E_b e^{-\eta_b}}{\sum_s w_s M_s}
 
-    w_s says how often seed s is drawn, g_s is its score and A_s its information at the fit of all:
-    one step of Newton's method towards the fit of the draw, which starts next to it.
+    w_s says how often seed s is drawn. The scale of the draw is found first, exactly: seeds may
+    differ in it by far. From there it is one step of Newton's method towards the fit of the draw;
+    g_s is the score of seed s and A_s its information, with all means times rho.
 
     Parameters
     ----------
@@ -151,10 +177,19 @@ def parameter_intervals(fit, transform=None, *, confidence=0.95, resamples=2000,
     if seeds == 1:
         return interval_of_refits(estimate, [], seeds, confidence)
     drawn = seed_draws(seeds, resamples, rng)
-    information = np.tensordot(drawn, fit.information, axes=1)
+    scores, information, bends = (np.tensordot(drawn, sums, axes=1) for sums in fit[1:])
+    # Sums of the derivatives of eta, times E exp(-eta) and times 1: the first ones of E exp(-eta)
+    # and of 1, as the first derivative is 1.
+    weighted, plain = information[:, 0], information[:, 0] - scores
+    held = weighted[:, 0] > 0.0  # a draw without energy has no estimate
+    scale = np.where(held, weighted[:, 0], 1.0) / np.where(held, plain[:, 0], 1.0)
+    scores = weighted / scale[:, None] - plain
+    information = (information - bends) / scale[:, None, None] + bends
     # The pseudo-inverse: a draw may lack the branches that tell parameters apart.
-    steps = np.linalg.pinv(information, hermitian=True) @ (drawn @ fit.scores)[..., None]
-    return interval_of_refits(estimate, wanted(fit.parameters + steps[..., 0]), seeds, confidence)
+    steps = (np.linalg.pinv(information, hermitian=True) @ scores[..., None])[..., 0]
+    steps[:, 0] += np.log(scale)
+    steps[~held] = np.nan
+    return interval_of_refits(estimate, wanted(fit.parameters + steps), seeds, confidence)
 
 
 def deviance(seed, design, parameters):

@@ -90,5 +90,6 @@ def _of_grains(network, to_i, to_j, of_walls=None):
     grains = network.radius.size
     total = np.bincount(network.i, to_i, grains) + np.bincount(network.j, to_j, grains)
     if of_walls is not None:
-        total += np.bincount(network.wall_grain, of_walls, grains)
+        # Not in place: the counts of no contacts are integers.
+        total = total + np.bincount(network.wall_grain, of_walls, grains)
     return total

@@ -50,7 +50,7 @@ def interval_of_refits(estimate, refits, seeds, confidence=0.95):
     ----------
     estimate : float or array_like, shape (...)
     refits : array_like, shape (resamples, ...)
-        nan where a draw has no estimate; left out.
+        nan where a draw has no estimate; left out. Fewer than two others have no interval.
     seeds : int
         S; with one seed the limits are nan.
     confidence : float
@@ -80,7 +80,8 @@ def interval_of_refits(estimate, refits, seeds, confidence=0.95):
         with np.errstate(invalid="ignore", divide="ignore"):
             mean = np.where(known, refits, 0.0).sum(axis=0) / number
             squares = np.where(known, (refits - mean) ** 2, 0.0).sum(axis=0)
-            error = np.sqrt(squares / (number - 1.0) * seeds / (seeds - 1.0))
+            # Without refits too, 0/0: nan.
+            error = np.sqrt(squares / np.maximum(number - 1.0, 0.0) * seeds / (seeds - 1.0))
         half = stdtrit(seeds - 1, (1.0 + confidence) / 2.0) * error
     return Interval(*(_plain(value) for value in (estimate, estimate - half, estimate + half)))
 

@@ -38,7 +38,7 @@ def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, r
     networks : list of networks.Network
         One a seed.
     vectors : list of array_like, shape (M, 3)
-        Branch vectors of each [m].
+        Branch vectors of each, in the order of its contacts: `fabric.branch_vectors` [m].
     edges : array_like, shape (n+1,)
         Bins of branch length, from the smallest diameter to the largest [m].
     contact_exponent : float

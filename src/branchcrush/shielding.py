@@ -6,7 +6,8 @@ cannot say it. Here it is counted, by branch and by grain.
 
 import numpy as np
 
-from branchcrush.energy_predictors import PREDICTORS, branch_columns, log_length
+from branchcrush.energy_predictors import branch_columns, log_length
+from branchcrush.energy_split import power_law_fit
 from branchcrush.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.grains import grain_energy, neighbour_ratio, solid_volume
 from branchcrush.intervals import pooled_interval
@@ -19,6 +20,10 @@ LARGER = 10.0
 VANISHED = 0.1
 # So few grains tell nothing: then those of the largest ratios there are.
 _FEWEST = 10
+# Radii of 0.1 and 1 have a ratio of 10 but for rounding: what is on an edge counts as beyond it.
+_ROUNDING = 1e-9
+# Bins of branch length in which the power law of equal lengths is fitted.
+_LENGTHS = 60
 _READINGS = ("contact", "grain", "volume")
 
 
@@ -29,7 +34,8 @@ def branch_shielding(seeds, *, confidence=0.95, resamples=2000, rng):
         \langle E \rangle \sim l^n \left(\frac{r_{min}}{r_{max}}\right)^s
 
     The ratio is that to what branches of the same lengths hold on average, with A and n fitted to
-    all branches. s is 0 without shielding; energies vanish for unequal grains when it is large.
+    all branches, and fitted anew in every draw. s is 0 without shielding; energies vanish for
+    unequal grains when it is large.
 
     Parameters
     ----------
@@ -41,53 +47,94 @@ def branch_shielding(seeds, *, confidence=0.95, resamples=2000, rng):
     Returns
     -------
     table : dict of ndarray
-        radius_ratio_low, radius_ratio_high, mean_radius_ratio, branches, energy_ratio with _low
-        and _high.
+        radius_ratio_low, radius_ratio_high (a ratio on an edge is in the bin below), the
+        mean_radius_ratio, branches, energy_ratio with _low and _high.
     summary : dict
-        shielding_exponent s and length_exponent n of the fit of both, with _low and _high.
+        shielding_exponent s and length_exponent n of the fit of both, with _low and _high; of the
+        branches up to `radius_ratio_to`, `unequal_branches` and unequal_over_equal, their ratio
+        over that of the last bin, with _low and _high; and claim: no such branch up to a ratio of
+        0.1, undecided with fewer than ten of them, and else as for `grain_shielding`.
 
     Raises
     ------
     FitError
-        As `gamma_regression.gamma_fit`.
+        As `gamma_regression.gamma_fit`, and as `energy_split.power_law_fit` of any draw.
     """
     options = {"confidence": confidence, "resamples": resamples, "rng": rng}
-    law = PREDICTORS["branch_length"].design
-    fitted = gamma_fit(seeds, law).parameters
+    logs = [log_length(small, large) for small, large, _ in seeds]
+    both = gamma_fit(seeds, _length_and_ratio)
+    # One seed may have no branch that carries energy, all together have: they were fitted.
+    whole = np.concatenate(logs)
+    first, last = whole.min(), whole.max()
+    lengths = np.linspace(first, max(last, first + 1e-6), _LENGTHS + 1)
     bins, sums = _RADIUS_RATIOS.size - 1, []
-    for small, large, energy in seeds:
+    for (small, large, energy), log in zip(seeds, logs, strict=True):
         ratio = np.exp(small - large)
-        group = np.clip(np.searchsorted(_RADIUS_RATIOS, ratio, side="right") - 1, 0, bins - 1)
-        mean = np.exp(law(fitted, small, large)[0])
-        parts = (None, ratio, energy, mean)
-        sums.append([np.bincount(group, part, bins) for part in parts])
-    sums = np.array(sums, dtype=float)
+        group = np.searchsorted(_RADIUS_RATIOS * (1.0 + _ROUNDING), ratio, side="left") - 1
+        place = np.clip(np.searchsorted(lengths, log, side="right") - 1, 0, _LENGTHS - 1)
+        cell = place * bins + np.clip(group, 0, bins - 1)
+        parts = (None, np.exp(log), ratio, energy)
+        sums.append([np.bincount(cell, part, bins * _LENGTHS) for part in parts])
+    sums = np.array(sums, dtype=float).reshape(len(seeds), 4, _LENGTHS, bins)
+    count, length, ratio, _ = sums.sum(axis=0)
+    filled = count.sum(axis=1) > 0
+    length = length.sum(axis=1)[filled] / count.sum(axis=1)[filled]
+    unequal = np.cumsum(count.sum(axis=0))
+    tenth = int(np.searchsorted(_RADIUS_RATIOS, 1.0 / LARGER))  # bins up to the claim's ratio
+    to = min(max(tenth, int(np.searchsorted(unequal, _FEWEST)) + 1), bins)
 
     def ratios(totals):
+        number, energy = totals[:, 0, filled], totals[:, 3, filled]
+        weight = number.sum(axis=2)
+        mean = energy.sum(axis=2) / np.maximum(weight, 1.0)
+        law = power_law_fit(length, mean, weight)
+        per_branch = law.amplitude[:, None] * length ** law.exponent[:, None]
+        held, expected = energy.sum(axis=1), (number * per_branch[..., None]).sum(axis=1)
+        # The draw's own scale: what is said is how branches of one draw compare.
+        scale = held.sum(axis=1) / expected.sum(axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            # The draw's own scale: what is said is how branches of one draw compare.
-            scale = totals[:, 2].sum(axis=1) / totals[:, 3].sum(axis=1)
-            return totals[:, 2] / totals[:, 3] / scale[:, None]
+            by_bin = held / expected / scale[:, None]
+            few = held[:, :to].sum(axis=1) / expected[:, :to].sum(axis=1) / scale
+            return np.concatenate([by_bin, (few / by_bin[:, -1])[:, None]], axis=1)
 
     found = pooled_interval(sums, ratios, **options)
-    both = gamma_fit(seeds, _length_and_ratio)
     limits = parameter_intervals(both, **options)
-    count, ratio = sums[:, :2].sum(axis=0)
+    count, ratio = count.sum(axis=0), ratio.sum(axis=0)
     with np.errstate(invalid="ignore"):
         mean_ratio = ratio / count
+    names = ("energy_ratio", "energy_ratio_low", "energy_ratio_high")
     table = {
         "radius_ratio_low": _RADIUS_RATIOS[:-1],
         "radius_ratio_high": _RADIUS_RATIOS[1:],
         "mean_radius_ratio": mean_ratio,
         "branches": count.astype(int),
-        **dict(zip(("energy_ratio", "energy_ratio_low", "energy_ratio_high"), found, strict=True)),
+        **{name: values[:-1] for name, values in zip(names, found, strict=True)},
     }
     summary = {
         name + part: float(values[k])
         for part, values in zip(("", "_low", "_high"), limits, strict=True)
         for k, name in ((1, "length_exponent"), (2, "shielding_exponent"))
     }
+    estimate, low, high = (float(values[-1]) for values in found)
+    summary |= {
+        "radius_ratio_to": float(_RADIUS_RATIOS[to]),
+        "unequal_branches": int(unequal[to - 1]),
+        "unequal_over_equal": estimate,
+        "unequal_over_equal_low": low,
+        "unequal_over_equal_high": high,
+    }
+    # Branches less unequal than the claim's are counted for what they hold, and do not answer it.
+    found_unequal = unequal[tenth - 1]
+    enough = _answer(low, high) if found_unequal >= _FEWEST else "undecided"
+    summary["claim"] = enough if found_unequal else "no such branch"
     return table, summary
+
+
+def _answer(low, high):
+    """Return what an interval says of the claim; without one, as with one seed, nothing."""
+    if high < VANISHED:
+        return "supported"
+    return "contradicted" if low > VANISHED else "undecided"
 
 
 def _length_and_ratio(theta, small=None, large=None):
@@ -124,7 +171,8 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
         mean_neighbour_ratio, grains; energy_per_grain, energy_per_volume and energy_per_contact
         over the mean of all, with _low and _high.
     summary : dict
-        largest_neighbour_ratio; of the grains from `neighbour_ratio_from` on, `grains`, and for
+        largest_neighbour_ratio; grains_ten_times_larger, the number from 10 on; of the grains
+        from `neighbour_ratio_from` on (the highest edge that ten grains reach) `grains`, and for
         each reading energy_per_<reading> with _low and _high and claim_per_<reading>: supported
         when all of the interval is below 0.1, contradicted when all of it is above, undecided
         between, and no such grain when no ratio reaches 10.
@@ -141,7 +189,8 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
             (network.contacts + network.wall_contacts).astype(float),
         )
         touching = np.isfinite(ratio)
-        group = np.searchsorted(_NEIGHBOUR_RATIOS, ratio[touching], side="right") - 1
+        edges = _NEIGHBOUR_RATIOS * (1.0 - _ROUNDING)
+        group = np.searchsorted(edges, ratio[touching], side="right") - 1
         largest = max(largest, ratio[touching].max(initial=0.0))
         seed = []
         for kept in (np.ones(energy.size, dtype=bool), ~network.rattlers):
@@ -180,7 +229,8 @@ def _claim(sums, largest, options):
     counts = sums[:, 0, :-1].sum(axis=0)
     held = np.cumsum(counts[::-1])[::-1]
     enough = np.flatnonzero(held >= _FEWEST)
-    first = min(enough[-1] if enough.size else 0, _NEIGHBOUR_RATIOS.size - 2)
+    first = int(enough[-1]) if enough.size else 0
+    reaching = int(held[np.searchsorted(_NEIGHBOUR_RATIOS, LARGER)])
     both = np.stack([sums[:, :, first:-1].sum(axis=2), sums[:, :, -1]], axis=2)
 
     def ratios(totals):
@@ -192,6 +242,7 @@ def _claim(sums, largest, options):
     limits = pooled_interval(both, ratios, **options)
     summary = {
         "largest_neighbour_ratio": float(largest),
+        "grains_ten_times_larger": reaching,
         "neighbour_ratio_from": float(_NEIGHBOUR_RATIOS[first]),
         "grains": int(held[first]),
     }
@@ -199,12 +250,7 @@ def _claim(sums, largest, options):
         estimate, low, high = (float(values[k]) for values in limits)
         name = f"energy_per_{reading}"
         summary |= {name: estimate, f"{name}_low": low, f"{name}_high": high}
-        if _NEIGHBOUR_RATIOS[first] < LARGER:
-            claim = "no such grain"
-        elif high < VANISHED:
-            claim = "supported"
-        else:
-            claim = "contradicted" if low > VANISHED else "undecided"
+        claim = _answer(low, high) if reaching else "no such grain"
         summary[f"claim_per_{reading}"] = claim
     return summary
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from branchcrush.contact_statistics import radius_classes
 from branchcrush.grains import grain_stress_volume, solid_volume
 from branchcrush.intervals import pooled_interval
 
@@ -84,11 +85,10 @@ def cumulative_sharing(radius, stress_volume, volume_share):
     >>> cumulative_sharing([2.0, 1.0, 1.0], [8.0, 0.0, 2.0], [0.0, 0.2, 1.0]).tolist()
     [0.0, 0.2, 1.0]
     """
-    order = np.argsort(radius, kind="stable")
-    volume, group = np.unique(np.asarray(radius)[order], return_inverse=True)
+    volume, group = np.unique(radius, return_inverse=True)
     # Grains of one radius come together, in whatever order they are.
     volume = np.bincount(group) * volume**3
-    stress = np.bincount(group, np.asarray(stress_volume)[order])
+    stress = np.bincount(group, stress_volume)
     at = np.append(0.0, np.cumsum(volume)) / volume.sum()
     carried = np.append(0.0, np.cumsum(stress)) / stress.sum()
     return np.interp(volume_share, at, carried)
@@ -138,3 +138,30 @@ def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
         summary[f"coarse_half_stress_share{part}"] = float(values[-2])
         summary[f"sharing_index{part}"] = float(values[-1])
     return table, summary
+
+
+def stress_sharing_result(networks, *, confidence=0.95, resamples=2000, rng):
+    r"""Return all that this module tells of the stress of a sample in one state.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    confidence, resamples, rng
+        As for `intervals.pooled_interval`.
+
+    Returns
+    -------
+    tables : dict of dict of ndarray
+        stress_by_radius, in `contact_statistics.radius_classes`, and stress_sharing.
+    summary : dict
+        As of `stress_sharing`.
+    """
+    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    classes = radius_classes(
+        np.concatenate([network.radius for network in networks]),
+        np.concatenate([network.contacts for network in networks]),
+    )
+    by_radius = stress_by_radius(networks, classes, **options)
+    table, summary = stress_sharing(networks, **options)
+    return {"stress_by_radius": by_radius, "stress_sharing": table}, summary

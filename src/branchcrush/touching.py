@@ -13,6 +13,7 @@ from branchcrush.contact_statistics import (
     pair_table,
     radius_classes,
 )
+from branchcrush.coordination_laws import isostatic_number
 from branchcrush.intervals import pooled_interval
 from branchcrush.length_predictions import (
     distances,
@@ -35,6 +36,7 @@ class SeedContacts(NamedTuple):
     lengths: np.ndarray  # branches in narrow bins, shape (states, n)
     sums: list[ContactSums]  # of each state
     length: np.ndarray  # R_i + R_j of every branch of the last state [m]
+    isostatic: np.ndarray  # `coordination_laws.isostatic_number` of each state
 
 
 def sample_classes(grading, radii, contacts, walls, state):
@@ -76,13 +78,53 @@ def seed_contacts(grading, classes, radii, contacts, walls, states):
     SeedContacts
     """
     edges = fine_edges(*grading.support())
-    numbers, lengths, sums = [], [], []
+    numbers, lengths, sums, isostatic = [], [], [], []
     for state in states:
         network = state_network(radii, contacts, walls, state)
         numbers.append(network.contacts)
         lengths.append(np.histogram(network.length, edges)[0])
         sums.append(contact_sums(network, classes))
-    return SeedContacts(np.asarray(radii), numbers, np.array(lengths), sums, network.length)
+        isostatic.append(isostatic_number(network))
+    return SeedContacts(
+        np.asarray(radii), numbers, np.array(lengths), sums, network.length, np.array(isostatic)
+    )
+
+
+def coordination_table(seeds, paths, jamming):
+    """Return the coordination numbers of every seed in every state, for all of its kinds.
+
+    Parameters
+    ----------
+    seeds : list of SeedContacts
+    paths : list of DataFrame
+        From `ensemble.certified_loading`, of the same seeds and states.
+    jamming : array_like
+        phi_J of each of these seeds, nan where it is unknown [-].
+
+    Returns
+    -------
+    DataFrame
+        seed_number (of those used, from 0), state, solid_fraction, void_ratio,
+        coordination_number, mechanical_coordination_number, rattler_fraction;
+        solid_fraction_above_jamming, of its own phi_J; isostatic_number.
+    """
+    columns = [
+        "state",
+        "solid_fraction",
+        "void_ratio",
+        "coordination_number",
+        "mechanical_coordination_number",
+        "rattler_fraction",
+    ]
+    parts = [
+        path[columns].assign(
+            seed_number=number,
+            solid_fraction_above_jamming=path["solid_fraction"] - point,
+            isostatic_number=seed.isostatic,
+        )
+        for number, (seed, path, point) in enumerate(zip(seeds, paths, jamming, strict=True))
+    ]
+    return pd.concat(parts, ignore_index=True)
 
 
 def length_prediction_rows(seeds, models, edges, path, *, confidence, resamples):

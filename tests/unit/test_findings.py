@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from branchcrush.exponent_paths import at_distance, common_distance, crossing
-from branchcrush.findings import coordination_rows, finding_row, verdicts
+from branchcrush.findings import finding_row, verdicts
 
 DISTANCES = np.array([0.0, 0.05, 0.1, 0.15])
 
@@ -64,20 +64,17 @@ def test_common_distance_is_the_shortest_rounded_down():
 # --- rows ----------------------------------------------------------------------------------------
 
 
-def loading(jamming, loaded=(False, True, True)):
-    states = np.arange(len(loaded))
-    return pd.DataFrame(
+def states_of(prefactor=8.0):
+    above = np.array([0.02, 0.04])
+    part = pd.DataFrame(
         {
-            "state": states,
-            "leg": "loading",
-            "carries_load": loaded,
-            "solid_fraction": jamming + 0.02 * states,
-            "void_ratio": 0.5,
-            "coordination_number": 5.0,
-            "mechanical_coordination_number": 6.0 + 8.0 * np.sqrt(0.02 * states),
-            "rattler_fraction": 0.1,
+            "state": [3, 4],
+            "solid_fraction_above_jamming": above,
+            "isostatic_number": 5.5,
+            "mechanical_coordination_number": 5.5 + prefactor * np.sqrt(above),
         }
     )
+    return pd.concat([part.assign(seed_number=number) for number in range(2)])
 
 
 def predictor(name, explained, difference=(0.0, 0.0, 0.0)):
@@ -141,14 +138,7 @@ def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain"):
 
 def row_of(name="one", exponents=(2.5, 2.8, 3.0, 3.2), **options):
     settings = {"boundary": "walls", "contact": {"law": "hertz"}}
-    states = coordination_rows(name, [loading(0.6), loading(0.61)], [0.6, 0.61])
-    return finding_row(name, settings, *results(**options), path_of(exponents), states, 0.1)
-
-
-def test_states_are_counted_from_the_jamming_point_of_their_own_seed():
-    states = coordination_rows("one", [loading(0.6), loading(0.7)], [0.6, 0.7])
-    assert states["seed_number"].tolist() == [0, 0, 1, 1]
-    assert states["solid_fraction_above_jamming"].tolist() == pytest.approx([0.02, 0.04] * 2)
+    return finding_row(name, settings, *results(**options), path_of(exponents), states_of(), 0.1)
 
 
 def test_row_says_what_the_results_say():
@@ -162,6 +152,7 @@ def test_row_says_what_the_results_say():
     assert row["ks_parking_near"] == 0.03
     # kappa* was made with this prefactor.
     assert row["jamming_law_prefactor"] == pytest.approx(8.0)
+    assert row["jamming_law_exponent"] == pytest.approx(0.5)
     # The surface is the ceiling of the others and no rival.
     assert row["best_predictor_end"] == "reduced_radius"
 
@@ -171,8 +162,7 @@ def test_row_of_a_sample_without_data_says_why(part):
     parts = list(results())
     parts[part] = {"reason": "no load"}
     settings = {"boundary": "periodic", "contact": {"law": "linear"}}
-    states = coordination_rows("loose", [loading(0.6)], [0.6])
-    row = finding_row("loose", settings, *parts, path_of([2.0] * 4), states, 0.1)
+    row = finding_row("loose", settings, *parts, path_of([2.0] * 4), states_of(), 0.1)
     assert row["reason"] == "no load"
     assert set(row) == {"sample", "boundary", "contact_law", "reason"}
     assert verdicts([row]) == {"known": []}

@@ -18,6 +18,7 @@ rule branch_lengths:
         predictions="results/{sample}/length_predictions.csv",
         numbers="results/{sample}/contact_numbers.csv",
         pairs="results/{sample}/contact_pairs.csv",
+        coordination="results/{sample}/coordination.csv",
         touching="results/{sample}/contact_numbers.json",
     log:
         "logs/{sample}/branch_lengths.log",

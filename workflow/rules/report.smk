@@ -76,6 +76,7 @@ rule network_figures:
         shielding_grains="results/{sample}/shielding_grains.csv",
         force_distribution="results/{sample}/force_distribution.csv",
         force_by_length="results/{sample}/force_by_length.csv",
+        fabric="results/{sample}/fabric.csv",
         stress_by_radius="results/{sample}/stress_by_radius.csv",
         stress_sharing="results/{sample}/stress_sharing.csv",
         data=data_files,
@@ -135,14 +136,9 @@ rule report:
 
 rule findings:
     input:
-        loading=[
-            file
-            for name, sample in SAMPLES.items()
-            for file in of_seeds("path.csv", name, sample["seeds"])
-        ],
-        jamming=expand("results/{sample}/jamming.csv", sample=SAMPLES),
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
+        states=expand("results/{sample}/coordination.csv", sample=SAMPLES),
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
         code=code("findings"),

@@ -11,6 +11,7 @@ from branchcrush.seed_files import read_contacts
 from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
 from branchcrush.touching import (
     contact_number_rows,
+    coordination_table,
     length_prediction_rows,
     sample_classes,
     seed_contacts,
@@ -30,11 +31,12 @@ with job(snakemake.log[0]):
             seed_contacts(grading, classes, *read_contacts(files, number), states)
             for number in used
         ]
-        jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used].mean()
-        fine, path = fine_edges(*grading.support()), mean_path(paths, jamming)
+        jamming = read_table(files.jamming)["jamming_solid_fraction_loading"].iloc[used]
+        fine, path = fine_edges(*grading.support()), mean_path(paths, jamming.mean())
         models = predictions(grading, fine)
         rows = length_prediction_rows(seeds, models, fine, path, **params.intervals)
         numbers, pairs = contact_number_rows(seeds, models, classes, path, **params.intervals)
+        coordination = coordination_table(seeds, paths, jamming)
         touching = touching_summary(seeds, models, rows, path, **params.intervals)
 
         lengths, edges = [seed.length for seed in seeds], bin_edges(*grading.support(), params.bins)
@@ -48,13 +50,14 @@ with job(snakemake.log[0]):
         )
     except FitError as error:
         table, statistics = no_data(error)
-        rows, numbers, pairs, touching = table, table, table, statistics
+        rows, numbers, pairs, coordination, touching = *[table] * 4, statistics
     origin = provenance(sample=snakemake.wildcards.sample, config=params.sample)
     for name, result in (
         ("table", table),
         ("predictions", rows),
         ("numbers", numbers),
         ("pairs", pairs),
+        ("coordination", coordination),
     ):
         write_table(snakemake.output[name], result, origin)
     write_json(snakemake.output.statistics, statistics, origin)

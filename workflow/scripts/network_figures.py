@@ -2,7 +2,7 @@
 
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
-from branchcrush.plotting import sharing, touching
+from branchcrush.plotting import forces, sharing, touching
 from branchcrush.plotting.style import SIZE, drawn, figure
 from branchcrush.tables import read_json, read_table
 
@@ -26,9 +26,10 @@ with job(snakemake.log[0]):
                 (touching.plot_mean_lengths, numbers, "predictions", largest),
             ),
         )
-    with figure(output.sharing, dpi, (2 * SIZE[0], 3 * SIZE[1]), (3, 2)) as panels:
+    with figure(output.sharing, dpi, (2 * SIZE[0], 4 * SIZE[1]), (4, 2)) as panels:
+        panels.flat[-1].set_axis_off()
         draw(
-            panels,
+            panels.flat[:-1],
             (
                 (sharing.plot_branch_shielding, branches, "shielding_branches", shared),
                 (sharing.plot_grain_shielding, shared, "shielding_grains"),
@@ -36,5 +37,6 @@ with job(snakemake.log[0]):
                 (sharing.plot_force_by_length, shared, "force_by_length", shared, largest),
                 (sharing.plot_stress_by_radius, shared, "stress_by_radius", largest),
                 (sharing.plot_stress_sharing, shared, "stress_sharing", shared),
+                (forces.plot_fabric, shared, "fabric", shared),
             ),
         )

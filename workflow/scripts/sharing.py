@@ -2,12 +2,11 @@
 
 from itertools import islice
 
-import numpy as np
-
 from branchcrush.contact_law import contact_law
 from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
+from branchcrush.fabric import branch_vectors
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
 from branchcrush.lammps_files import read_dump
@@ -17,9 +16,8 @@ from branchcrush.sharing import TABLES, both_states, shared_in_state
 from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
 
 
-def branch_vectors(dump, state):
-    frame = next(islice(read_dump(dump), state, None))
-    return np.column_stack([frame[f"branch_{axis}"] for axis in "xyz"])
+def frame_of(dump, state):
+    return next(islice(read_dump(dump), state, None))
 
 
 with job(snakemake.log[0]):
@@ -35,7 +33,7 @@ with job(snakemake.log[0]):
             state = int(paths[0]["state"].iloc[row])
             found[where, state] = shared_in_state(
                 [state_network(*read_contacts(files, number), state) for number in used],
-                [branch_vectors(files.pairs[number], state) for number in used],
+                [branch_vectors(frame_of(files.pairs[number], state)) for number in used],
                 edges,
                 exponent,
                 **params.intervals,

@@ -23,7 +23,7 @@ def plot_coordination(states, styles, ax=None):
     Axes
     """
     ax = axes(ax)
-    for name, rows in states.groupby("sample", sort=False):
+    for name, rows in _loaded(states):
         color = styles[name]["color"]
         ax.plot(
             rows["void_ratio"], rows["coordination_number"], ".", ms=1.5, color=color, alpha=0.5
@@ -64,9 +64,9 @@ def plot_jamming_law(states, styles, ax=None):
     Axes
     """
     ax = axes(ax)
-    for name, rows in states.groupby("sample", sort=False):
+    for name, rows in _loaded(states):
         style = styles[name]
-        excess = rows["mechanical_coordination_number"] - 6.0
+        excess = rows["mechanical_coordination_number"] - rows["isostatic_number"]
         kept = (rows["solid_fraction_above_jamming"] > 1e-3) & (excess > 0.05)
         ax.plot(
             rows.loc[kept, "solid_fraction_above_jamming"],
@@ -79,13 +79,11 @@ def plot_jamming_law(states, styles, ax=None):
             alpha=0.5,
         )
     x = np.geomspace(1e-3, max(0.2, states["solid_fraction_above_jamming"].max()), 50)
-    ax.plot(
-        x, jamming_law(x) - 6.0, color="black", label=r"$\kappa^* = 6 + 7.8\,\sqrt{\phi-\phi_J}$"
-    )
+    ax.plot(x, jamming_law(x) - 6.0, color="black", label=r"$7.8\,\sqrt{\phi-\phi_J}$")
     ax.plot([], [], "o", color="black", label="periodic (filled: linear, open: Hertz)")
-    ax.plot([], [], "^", color="black", label="walls (contacts with them count)")
+    ax.plot([], [], "^", color="black", label="walls")
     ax.set(xscale="log", yscale="log", xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]")
-    ax.set(ylabel=r"$\kappa^* - 6$ [-]")
+    ax.set(ylabel=r"$\kappa^* - \kappa^*_{iso}$ [-]")
     ax.legend(loc="upper left")
     return ax
 
@@ -212,6 +210,11 @@ def plot_forces(tables, styles, ax=None):
     return ax
 
 
+def _loaded(states):
+    """Return the states of each sample that has any."""
+    return states[states["state"].notna()].groupby("sample", sort=False)
+
+
 def _ends(tables):
     return ((name, table[table["where"] == "end"]) for name, table in tables.items())
 
@@ -231,4 +234,4 @@ def _line(ax, x, y, style):
 
 
 def _of(states, styles):
-    return {name: styles[name] for name in states["sample"].unique()}
+    return {name: styles[name] for name, _ in _loaded(states)}
