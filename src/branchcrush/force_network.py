@@ -8,6 +8,8 @@ from branchcrush.intervals import pooled_interval
 
 # Narrow enough to show the peak below the mean force.
 _BIN = 0.25
+# Beyond so many mean forces, where hardly a packing has a contact, all are in one bin.
+_LAST = 100.0
 # Where tails begin, in mean forces.
 THRESHOLDS = (1.0, 2.0, 3.0)
 
@@ -57,7 +59,9 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
     ([2.0, 0.0], 4)
     """
     largest = max((np.max(force, initial=0.0) for force in forces), default=0.0)
-    edges = np.arange(0.0, largest + _BIN, _BIN)
+    edges = np.arange(0.0, min(largest, _LAST) + _BIN, _BIN)
+    if largest > edges[-1]:
+        edges = np.append(edges, max(largest, edges[-1] + _BIN))
     counts = np.array([np.histogram(force, edges)[0] for force in forces])
 
     def density(totals):

@@ -64,7 +64,7 @@ def test_no_force_has_no_relative_force():
 
 
 @settings(deadline=None, max_examples=50)
-@given(st.integers(0, 2**32), st.floats(0.1, 3.0), st.integers(1, 4))
+@given(st.integers(0, 2**32), st.floats(0.1, 1.2), st.integers(1, 4))
 def test_bins_are_equal_hold_all_contacts_and_end_with_the_data(seed, width, seeds):
     rng = rng_of(seed)
     forces = [relative_forces(rng.lognormal(0.0, width, 200)) for _ in range(seeds)]
@@ -74,6 +74,15 @@ def test_bins_are_equal_hold_all_contacts_and_end_with_the_data(seed, width, see
     assert table["contacts"].sum() == 200 * seeds
     assert table["contacts"][-1] > 0
     assert_allclose(table["density"] @ widths, 1.0)
+
+
+@pytest.mark.parametrize("largest", [100.1, 1e7])
+def test_a_huge_force_has_one_wide_bin_of_its_own(largest):
+    table = force_distribution([[1.0, largest]], rng=None)
+    assert table["contacts"].size < 405
+    assert table["contacts"][-1] == 1
+    assert table["force_high"][-1] >= largest
+    assert (table["force_high"] - table["force_low"]).min() > 0.2
 
 
 def test_a_force_just_beyond_many_means_is_no_peak():
