@@ -81,11 +81,14 @@ def grading_nodes(grading):
     elif grading.is_discrete:
         return single, single_share
     levels = np.linspace(0.0, 1.0, _CELLS + 1)[1:-1]
-    inner = np.unique(np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)]))
-    # The nodes' last ones are the single radii, which are cut into cells only when they are many.
+    quantiles = np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)])
+    inner, times = np.unique(quantiles, return_counts=True)
+    # The last of these nodes are single radii, which are cut into cells only when they are many.
     nodes, weight = grading.quadrature(breaks=inner)
     cut = nodes.size - single.size
-    cell = np.searchsorted(inner, nodes[:cut])
+    # One that is more than a cell by itself has its own, without the fines that it outweighs.
+    ends = np.union1d(inner, np.nextafter(inner[times > 1], 0.0))
+    cell = np.searchsorted(ends, nodes[:cut])
     share, sums = (np.bincount(cell, w) for w in (weight[:cut], weight[:cut] * nodes[:cut]))
     kept = share > 1e-15
     # Means, not middles: the last cell of a long tail reaches far beyond the grains in it.

@@ -3,19 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from branchcrush.contact_statistics import radius_classes
 from branchcrush.errors import FitError
 from branchcrush.fabric import fabric_result
-from branchcrush.force_network import (
-    THRESHOLDS,
-    force_by_length,
-    force_distribution,
-    force_tail,
-    relative_forces,
-)
+from branchcrush.force_network import force_network_result
 from branchcrush.grain_size_split import EINAV, grain_energy_exponents
 from branchcrush.shielding import branch_shielding, grain_shielding, network_branches
-from branchcrush.stress_sharing import stress_by_radius, stress_sharing
+from branchcrush.stress_sharing import stress_sharing_result
 
 TABLES = (
     "shielding_branches",
@@ -75,29 +68,20 @@ def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, r
     except FitError as error:
         shielding["grain_energy"] = {"reason": str(error)}
 
-    forces = [relative_forces(network.force) for network in networks]
-    tables["force_distribution"] = force_distribution(forces, **drawn())
-    tables["force_by_length"], exponent = force_by_length(networks, edges, **drawn())
-    tails = [force_tail(forces, threshold, **drawn()) for threshold in THRESHOLDS]
-    limits = dict(zip(("exponent", "exponent_low", "exponent_high"), exponent or (), strict=False))
-
+    of_forces, forces = force_network_result(networks, edges, **drawn())
     rows, fabric = fabric_result(
         vectors, [network.force for network in networks], confidence=confidence
     )
     tables["fabric"] = pd.DataFrame(rows).rename_axis("seed_number").reset_index()
 
-    classes = radius_classes(
-        np.concatenate([network.radius for network in networks]),
-        np.concatenate([network.contacts for network in networks]),
-    )
-    tables["stress_by_radius"] = stress_by_radius(networks, classes, **drawn())
-    tables["stress_sharing"], stress = stress_sharing(networks, **drawn())
+    of_stress, stress = stress_sharing_result(networks, **drawn())
     summary = {
         "shielding": shielding,
-        "forces": {"tails": tails, "by_length": limits},
+        "forces": forces,
         "fabric": fabric,
         "stress": stress,
     }
+    tables |= of_forces | of_stress
     return {name: pd.DataFrame(table) for name, table in tables.items()}, summary
 
 

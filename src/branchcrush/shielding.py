@@ -153,7 +153,9 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
         \frac{\sum_x e / \sum_x z}{\sum e / \sum z}
 
     Per grain, per unit of solid volume and per contact (walls' included), over those of all
-    grains. Grains that touch none have no x, and count in the means of all.
+    grains. The claim is one of contacts: per volume a grain that carries the same stress as its
+    finer neighbours has fewer contacts, on its surface, and 1/x of their energy without any
+    shielding. Grains that touch none have no x, and count in the means of all.
 
     Parameters
     ----------
@@ -175,7 +177,7 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
         from `neighbour_ratio_from` on (the highest edge that ten grains reach) `grains`, and for
         each reading energy_per_<reading> with _low and _high and claim_per_<reading>: supported
         when all of the interval is below 0.1, contradicted when all of it is above, undecided
-        between, and no such grain when no ratio reaches 10.
+        between or with fewer than ten such grains, and no such grain when no ratio reaches 10.
     """
     options = {"confidence": confidence, "resamples": resamples}
     bins, sums, largest = _NEIGHBOUR_RATIOS.size - 1, [], 0.0
@@ -250,8 +252,8 @@ def _claim(sums, largest, options):
         estimate, low, high = (float(values[k]) for values in limits)
         name = f"energy_per_{reading}"
         summary |= {name: estimate, f"{name}_low": low, f"{name}_high": high}
-        claim = _answer(low, high) if reaching else "no such grain"
-        summary[f"claim_per_{reading}"] = claim
+        enough = _answer(low, high) if reaching >= _FEWEST else "undecided"
+        summary[f"claim_per_{reading}"] = enough if reaching else "no such grain"
     return summary
 
 

@@ -119,6 +119,20 @@ def test_coarse_grains_few_by_number_have_nodes_as_well():
     assert (radius > fractal(1.0, 200.0, 2.6).mass_ppf(0.5)).sum() >= 95
 
 
+@pytest.mark.parametrize("fines", [101, 699, 5000])
+def test_one_heavy_grain_among_many_fines_keeps_its_radius(fines):
+    radius, share = grading_nodes(from_radii([*np.linspace(1.0, 1.5, fines), 200.0]))
+    assert radius.max() == 200.0
+    assert share[radius.argmax()] == pytest.approx(1 / (fines + 1), rel=1e-9)
+
+
+def test_a_long_tail_of_no_grains_has_no_part_in_the_moments():
+    grading = lognormal(1.0, 1.2, 0.01, 100.0)
+    radius, share = grading_nodes(grading)
+    for order in (1, 2, 3):
+        assert share @ radius**order == pytest.approx(grading.moment(order), rel=1e-3)
+
+
 # --- pairs ---------------------------------------------------------------------------------------
 
 

@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from pandas.testing import assert_frame_equal
 
+from branchcrush.contact_statistics import radius_classes
 from branchcrush.energy_split import bin_edges
 from branchcrush.fabric import fabric_result
 from branchcrush.force_network import THRESHOLDS, force_tail, relative_forces
@@ -104,6 +105,22 @@ def test_numbers_are_those_of_the_parts(made, found):
     for tail in summary["forces"]["tails"]:
         expected = force_tail([relative_forces(f) for f in forces], tail["threshold"], rng=rng)
         assert tail["decay_rate"] == expected["decay_rate"]
+
+
+def test_classes_of_radius_hold_as_many_grains_as_ends_of_contacts():
+    networks, vectors = sample(radii=np.linspace(0.02, 1.0, 500))
+    # Contacts of few grains alone: classes by the number of grains would be other ones.
+    networks = [
+        one._replace(radius=np.sort(one.radius), i=one.i % 9, j=110 + one.j % 9) for one in networks
+    ]
+    tables, _ = shared(networks, vectors)
+    radii, contacts = (
+        np.concatenate([getattr(one, name) for one in networks]) for name in ("radius", "contacts")
+    )
+    edges = radius_classes(radii, contacts)
+    assert not np.array_equal(edges, radius_classes(radii, 0 * contacts))
+    assert tables["stress_by_radius"]["radius_low_m"].tolist() == edges[:-1].tolist()
+    assert tables["stress_by_radius"]["radius_high_m"].tolist() == edges[1:].tolist()
 
 
 def test_every_contact_is_in_every_table_of_contacts(found):

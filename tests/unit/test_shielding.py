@@ -166,6 +166,20 @@ def test_seeds_without_branches_have_no_fit():
             branch_shielding(seeds, **options())
 
 
+def test_ratios_are_over_what_all_branches_hold_on_average():
+    # Two ratios of the same lengths: what is expected of both is the same, so their mean is 1.
+    rng = np.random.default_rng(9)
+    ratio = np.repeat([0.35, 0.95], 300)
+    seeds = []
+    for length in np.tile(rng.uniform(0.2, 1.0, (3, 300)), 2):
+        large = np.log(length / (1.0 + ratio))
+        energy = length**3 * ratio * rng.standard_exponential(600)
+        seeds.append((large + np.log(ratio), large, energy))
+    table, _ = branch_shielding(seeds, **options())
+    assert table["branches"][[4, 10]].tolist() == [900, 900]
+    assert_allclose(table["energy_ratio"][[4, 10]].mean(), 1.0, rtol=1e-9)
+
+
 # --- grains --------------------------------------------------------------------------------------
 
 
@@ -223,11 +237,21 @@ def test_without_grains_ten_times_larger_the_largest_are_given_and_no_claim():
     assert found["grains_ten_times_larger"] == 0 and found["energy_per_grain"] > 1
 
 
-def test_fewer_than_ten_such_grains_are_judged_with_the_next_largest():
+def test_fewer_than_ten_such_grains_decide_nothing_and_are_shown_with_the_next_largest():
     made = [large_in_fines(3.0)] * 3 + [large_in_fines(3.0, size=0.6)] * 7
     _, found = grain_shielding(made, 1.0, **options())
     assert (found["grains_ten_times_larger"], found["grains"]) == (3, 10)
-    assert found["neighbour_ratio_from"] == 5.0 and found["claim_per_contact"] == "contradicted"
+    assert found["neighbour_ratio_from"] == 5.0
+    assert found["energy_per_contact_low"] > 0.1 and found["claim_per_contact"] == "undecided"
+
+
+def test_grains_that_are_judged_are_all_from_the_given_ratio_on():
+    made = [large_in_fines(3.0)] * 3 + [large_in_fines(1.0, size=0.6)] * 7
+    table, found = grain_shielding(made, 1.0, **options())
+    above = (table["grains_counted"] == "all") & (table["neighbour_ratio_low"] >= 5.0)
+    assert table["grains"][above].tolist() == [7, 3]
+    mean = np.average(table["energy_per_grain"][above], weights=[7, 3])
+    assert_allclose(found["energy_per_grain"], mean, rtol=1e-12)
 
 
 def test_grains_without_neighbours_have_no_ratio_but_count_in_the_mean():
