@@ -8,6 +8,8 @@ from branchcrush.exponent_paths import PAPER, at_distance, crossing
 # How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
 GOOD_DISTANCE = 0.06
 _RESAMPLING = 24
+# Explained deviances less apart than this are the same but for rounding.
+_TIED = 1e-6
 
 
 def finding_row(name, settings, fit, numbers, shared, path, states, distance):
@@ -83,7 +85,10 @@ def _split(fit, where):
         for name, p in known.items()
         if name != "surface" and p["explained_deviance"] is not None
     }
-    row[f"best_predictor_{where}"] = max(scored, key=scored.get) if scored else None
+    ranked = sorted(scored, key=scored.get, reverse=True)
+    # With two lengths of branches, or none apart, all say the same.
+    tied = len(ranked) < 2 or scored[ranked[0]] - scored[ranked[1]] < _TIED
+    row[f"best_predictor_{where}"] = None if tied else ranked[0]
     return row
 
 

@@ -180,4 +180,4 @@ def test_exponents_are_drawn_for_the_samples_of_one_law():
     styles = samples.sample_styles({"one": SETTINGS, "two": hertz})
     ax = samples.plot_exponents({"one": table, "two": table}, styles, "linear")
     assert ax.lines[0].get_xdata().tolist() == [0.1, 0.2]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["one"]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["one", "the paper's n = 3"]

@@ -85,21 +85,18 @@ def plot_exponents(paths, styles, law, ax=None):
         ax.plot(x, path["exponent"], style["line"], color=style["color"])
         low, high = path["exponent_low"], path["exponent_high"]
         ax.fill_between(x, low, high, color=style["color"], alpha=0.12, lw=0)
-    ax.axhline(PAPER, color=FAINT, ls=":", lw=1.0)
-    ax.annotate(
-        "the paper's n = 3",
-        (0.99, PAPER),
-        xycoords=("axes fraction", "data"),
-        xytext=(0, 3),
-        textcoords="offset points",
-        ha="right",
-        fontsize=6.5,
-        color=FAINT,
-    )
+    ax.axhline(PAPER, color="black", ls=":", lw=1.0)
     ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
-    ax.set(title=_LAWS[law], ylim=(0, max(4.2, top + 0.3)))
+    ax.set(title=_LAWS[law], ylim=(0, 1.45 * top))
     shown = {n: s for n, s in styles.items() if n in paths and s["law"] == law}
-    ax.legend(handles=legend_handles(shown, lines=True), loc="lower right", ncols=2)
+    paper = Line2D([], [], color="black", ls=":", label="the paper's n = 3")
+    ax.legend(
+        handles=[*legend_handles(shown, lines=True), paper],
+        loc="upper center",
+        ncols=3,
+        handlelength=1.5,
+        columnspacing=1.0,
+    )
     return ax
 
 

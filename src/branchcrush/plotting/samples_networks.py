@@ -45,9 +45,7 @@ def plot_coordination(states, styles, ax=None):
     ax.plot([], [], ".", color="black", label=r"$\kappa$, all grains")
     ax.plot([], [], "o", mfc="none", color="black", label=r"$\kappa^*$, without rattlers")
     ax.set(xlabel="void ratio e [-]", ylabel=r"coordination number [-]", ylim=(0, 17))
-    first = ax.legend(loc="upper right", ncols=2)
-    ax.add_artist(first)
-    ax.legend(handles=legend_handles(_of(states, styles)), loc="lower left", ncols=2)
+    ax.legend(loc="upper right", ncols=2)
     return ax
 
 
@@ -84,7 +82,9 @@ def plot_jamming_law(states, styles, ax=None):
     ax.plot([], [], "^", color="black", label="walls")
     ax.set(xscale="log", yscale="log", xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]")
     ax.set(ylabel=r"$\kappa^* - \kappa^*_{iso}$ [-]")
-    ax.legend(loc="upper left")
+    marks = ax.legend(loc="upper left")
+    ax.add_artist(marks)
+    ax.legend(handles=legend_handles(_of(states, styles)), loc="lower right")
     return ax
 
 

@@ -91,7 +91,7 @@ def plot_grain_shielding(table, reading="volume", ax=None):
         xlabel=r"radius over neighbours' mean $R/\langle R\rangle_{nb}$ [-]",
     )
     ax.set_ylabel(f"energy per {reading} over the mean [-]")
-    ax.set_ylim(0.01, max(ax.get_ylim()[1], 10.0))
+    ax.set_ylim(0.002, max(ax.get_ylim()[1], 10.0))
     ax.legend(loc="lower left")
     return ax
 
@@ -214,7 +214,7 @@ def plot_stress_by_radius(table, radius_max, ax=None):
         xlim=(0, 1.03),
         ylim=(0, min(max(top, 1.1 * float(table["load_bearing_stress_ratio"].max())), 3.5)),
     )
-    ax.legend(loc="lower right")
+    ax.legend(loc="upper right")
     return ax
 
 
