@@ -124,22 +124,26 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
     -------
     list of dict
         name, formula; parameters, each with estimate, low and high; explained_deviance and
-        difference_to_branch_length with _low and _high (nan with one seed); or reason.
+        difference_to_branch_length with _low and _high; or reason. Where no seeds can be left out,
+        as when there is one, these are nan and left_out_reason says why.
     """
     options = {"confidence": confidence, "resamples": resamples}
-    nothing = _left_out(seeds, _CONSTANT)
+    nothing, _ = _judged(seeds, _CONSTANT)
     left_out, found = {}, []
     for name, predictor in PREDICTORS.items():
         entry = {"name": name, "formula": predictor.formula}
+        found.append(entry)
         try:
             fit = gamma_fit(seeds, predictor.design)
-            left_out[name] = _left_out(seeds, predictor.design, fit.parameters)
         except FitError as error:
-            found.append({**entry, "reason": str(error)})
+            entry["reason"] = str(error)
             continue
         limits = parameter_intervals(fit, rng=_rng(), **options)
         entry["parameters"] = _named(predictor.names, limits)
-        found.append(entry | _explained(left_out, name, nothing, options))
+        left_out[name], reason = _judged(seeds, predictor.design, fit.parameters)
+        entry |= _explained(left_out, name, nothing, options)
+        if reason:
+            entry["left_out_reason"] = reason
     return found
 
 
@@ -151,15 +155,24 @@ def _named(names, limits):
     }
 
 
-def _left_out(seeds, design, start=None):
-    """Return the deviance of every seed from the fit to the others; nan with one seed."""
-    groups = np.array_split(np.arange(len(seeds)), min(len(seeds), _FOLDS))
-    found = np.full(len(seeds), np.nan)
+def _judged(seeds, design, start=None):
+    """Return the deviance of every seed from the fit to the others, and why if there is none."""
+    try:
+        return _left_out(seeds, design, start), ""
+    except FitError as error:
+        return np.full(len(seeds), np.nan), str(error)
+
+
+def _left_out(seeds, design, start):
     if len(seeds) == 1:
-        return found
-    for group in groups:
+        raise FitError("one seed: there is none to leave out")
+    found = np.empty(len(seeds))
+    for group in np.array_split(np.arange(len(seeds)), min(len(seeds), _FOLDS)):
         others = [seed for number, seed in enumerate(seeds) if number not in group]
-        parameters = gamma_fit(others, design, start).parameters
+        try:
+            parameters = gamma_fit(others, design, start).parameters
+        except FitError as error:
+            raise FitError(f"without some of the seeds: {error}") from error
         for number in group:
             found[number] = deviance(seeds[number], design, parameters)
     return found

@@ -187,6 +187,18 @@ def test_exact_cubic_energies_give_an_exponent_of_3_however_it_is_found(sample):
     assert_allclose([fit["cubic_slope"], fit["cubic_r_squared"]], 1.0, rtol=1e-9)
 
 
+@pytest.mark.parametrize("loaded", [0, 1])
+def test_first_state_with_energy_in_hardly_a_seed_leaves_the_fit_of_the_last(contacts, loaded):
+    # Close to jamming one packing may carry load and the others not yet.
+    kept = [table[(table["state"] != 1) | (seed < loaded)] for seed, table in enumerate(contacts)]
+    paths = [path_of(1, 2)] * 3
+    _, fit = final_energy_split(branches_of(kept, 1, 2), paths, EDGES, **SETTINGS)
+    assert fit["exponent"] == pytest.approx(3.0, abs=1e-9)
+    near = fit["near_jamming"]["predictors"]
+    assert all(("reason" in entry) != ("left_out_reason" in entry) for entry in near)
+    assert ("exponent" in near[0]) == bool(loaded)
+
+
 def test_fit_says_what_it_is_made_from(sample, contacts):
     branches, paths = sample
     _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)

@@ -15,7 +15,7 @@ RESAMPLES = 300
 CROSSING = 1.3
 
 
-def packing(rng, exponent, scatter):
+def packing(rng, exponent, scatter, bend=0.0):
     """Return the branches of a packing whose force network is its own, as predictors take them.
 
     Amplitude, exponent, number of branches and their lengths are random. All lengths of a bin are
@@ -25,7 +25,8 @@ def packing(rng, exponent, scatter):
     length = rng.triangular(0.1, rng.uniform(1.0, 1.6), 2.0, branches)
     length = CENTRES[np.searchsorted(EDGES[1:-1], length, side="right")]
     own = exponent + scatter * rng.standard_normal()
-    mean = np.exp(0.3 * rng.standard_normal()) * (length / CROSSING) ** own
+    x = np.log(length / CROSSING)
+    mean = np.exp(0.3 * rng.standard_normal() + own * x + bend * x**2)
     share = rng.uniform(0.1, 0.5, branches)
     energy = mean * rng.standard_exponential(branches)
     return np.log(share * length), np.log((1.0 - share) * length), energy
@@ -57,3 +58,15 @@ def test_interval_of_the_exponent_covers_the_one_that_packings_scatter_about(cov
 
 def test_interval_of_the_curvature_covers_0_where_the_law_is_a_power_law(covered):
     assert 0.90 <= covered["curvature"] <= 0.98
+
+
+@pytest.mark.parametrize(("number", "seen"), [(12, 0.95), (5, 0.9)])
+def test_curvature_is_seen_where_there_is_some(number, seen):
+    rng = np.random.default_rng(number + 1)
+    found = [
+        curvature([packing(rng, 3.0, 0.15, 0.8) for _ in range(number)], resamples=RESAMPLES)
+        for _ in range(TRIALS // 2)
+    ]
+    low, high = (np.array([bend[f"curvature_{end}"] for bend in found]) for end in ("low", "high"))
+    assert np.mean(low > 0.0) > seen
+    assert np.mean((low <= 0.8) & (high >= 0.8)) >= 0.9

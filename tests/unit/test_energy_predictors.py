@@ -177,6 +177,30 @@ def test_one_seed_has_parameters_without_intervals_and_explains_nothing_left_out
             assert np.isnan([parameter["low"], parameter["high"]]).all()
         for key in EXPLAINED:
             assert np.isnan([entry[key + part] for part in ("", "_low", "_high")]).all()
+        assert "one seed" in entry["left_out_reason"]
+
+
+def test_energy_in_one_seed_alone_leaves_its_exponents_and_says_what_is_missing():
+    seeds = study(np.random.default_rng(15), 1, 500, lambda s, g: np.exp(3 * g))
+    seeds += [branch_columns([], [], [], 1.0)] * 2
+    for entry in compared_predictors(seeds, resamples=50):
+        assert all(np.isfinite(value["estimate"]) for value in entry["parameters"].values())
+        assert np.isnan([entry[key] for key in EXPLAINED]).all()
+        assert "without some of the seeds" in entry["left_out_reason"]
+
+
+def test_seed_that_alone_has_a_second_length_cannot_be_left_out():
+    small = np.full(200, -1.0)
+    energies = np.random.default_rng(16).exponential(size=(3, 200))
+    seeds = [(small, small + 0.5 * (k == 1), energy) for k, energy in enumerate(energies)]
+    entry = by_name(compared_predictors(seeds, resamples=50))["branch_length"]
+    assert np.isfinite(entry["parameters"]["exponent"]["estimate"])
+    assert "do not tell the parameters apart" in entry["left_out_reason"]
+
+
+def test_no_energy_at_all_is_told():
+    for entry in compared_predictors([branch_columns([], [], [], 1.0)] * 2):
+        assert "finite energy" in entry["reason"]
 
 
 def test_grains_of_a_single_size_give_reasons_and_no_numbers():
