@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from branchcrush.energy_split import bin_numbers
 from branchcrush.intervals import pooled_interval
 
 _CLASSES = 10
@@ -72,7 +73,7 @@ def contact_sums(network, edges):
     ContactSums
     """
     classes = len(edges) - 1
-    group = np.clip(np.searchsorted(edges, network.radius, side="right") - 1, 0, classes - 1)
+    group = bin_numbers(network.radius, edges)
     contacts, bearing = network.contacts, ~network.rattlers
     grains, radii, touching, held, held_touching = (
         np.bincount(group, weights, minlength=classes)

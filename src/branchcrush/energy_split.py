@@ -53,6 +53,27 @@ def bin_edges(radius_min, radius_max, bins=20):
     return np.linspace(2.0 * radius_min, 2.0 * radius_max, bins + 1)
 
 
+def bin_numbers(values, edges):
+    """Return the number of the bin of each value; one beyond the ends belongs to the end bin.
+
+    Parameters
+    ----------
+    values : array_like, shape (M,)
+    edges : array_like, shape (n+1,)
+
+    Returns
+    -------
+    ndarray of int, shape (M,)
+        From 0.
+
+    Examples
+    --------
+    >>> bin_numbers([0.9, 1.0, 2.0, 3.0], [1.0, 2.0, 3.0]).tolist()
+    [0, 0, 1, 1]
+    """
+    return np.clip(np.searchsorted(edges, values, side="right") - 1, 0, len(edges) - 2)
+
+
 def binned_sums(length, energy, edges):
     r"""Return, for each bin, the branches, the sum of their lengths and of their energies.
 
@@ -81,7 +102,7 @@ def binned_sums(length, energy, edges):
     """
     length, energy = np.asarray(length, dtype=float), np.asarray(energy, dtype=float)
     bins = len(edges) - 1
-    index = np.clip(np.searchsorted(edges, length, side="right") - 1, 0, bins - 1)
+    index = bin_numbers(length, edges)
     return np.stack(
         [np.bincount(index, weights, minlength=bins) for weights in (None, length, energy)]
     ).astype(float)

@@ -7,7 +7,7 @@ cannot say it. Here it is counted, by branch and by grain.
 import numpy as np
 
 from branchcrush.energy_predictors import branch_columns, log_length
-from branchcrush.energy_split import power_law_fit
+from branchcrush.energy_split import bin_numbers, power_law_fit
 from branchcrush.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.grains import grain_energy, neighbour_ratio, solid_volume
 from branchcrush.intervals import pooled_interval
@@ -71,7 +71,7 @@ def branch_shielding(seeds, *, confidence=0.95, resamples=2000, rng):
     for (small, large, energy), log in zip(seeds, logs, strict=True):
         ratio = np.exp(small - large)
         group = np.searchsorted(_RADIUS_RATIOS * (1.0 + _ROUNDING), ratio, side="left") - 1
-        place = np.clip(np.searchsorted(lengths, log, side="right") - 1, 0, _LENGTHS - 1)
+        place = bin_numbers(log, lengths)
         cell = place * bins + np.clip(group, 0, bins - 1)
         parts = (None, np.exp(log), ratio, energy)
         sums.append([np.bincount(cell, part, bins * _LENGTHS) for part in parts])

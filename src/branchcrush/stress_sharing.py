@@ -3,6 +3,7 @@
 import numpy as np
 
 from branchcrush.contact_statistics import radius_classes
+from branchcrush.energy_split import bin_numbers
 from branchcrush.grains import grain_stress_volume, solid_volume
 from branchcrush.intervals import pooled_interval
 
@@ -32,7 +33,7 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
     classes, sums = len(edges) - 1, []
     grains, radii = np.zeros(classes), np.zeros(classes)
     for network in networks:
-        group = np.clip(np.searchsorted(edges, network.radius, side="right") - 1, 0, classes - 1)
+        group = bin_numbers(network.radius, edges)
         stress, volume = grain_stress_volume(network), solid_volume(network.radius)
         bearing = ~network.rattlers
         parts = (stress, volume, bearing * stress, bearing * volume)

@@ -14,6 +14,7 @@ from branchcrush.contact_statistics import (
     radius_classes,
 )
 from branchcrush.coordination_laws import isostatic_number
+from branchcrush.energy_split import bin_numbers
 from branchcrush.intervals import pooled_interval
 from branchcrush.length_predictions import (
     distances,
@@ -222,8 +223,7 @@ def _model_classes(models, classes):
     for name, model in models.items():
         if not model.radius.size:  # Eq. 4 has no contact numbers
             continue
-        group = np.searchsorted(classes, model.radius, side="right") - 1
-        group = np.clip(group, 0, len(classes) - 2)
+        group = bin_numbers(model.radius, classes)
         grains, contacts = (
             np.bincount(group, weight, minlength=len(classes) - 1)
             for weight in (model.share, model.share * model.contacts)

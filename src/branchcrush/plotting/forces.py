@@ -3,10 +3,8 @@
 import numpy as np
 
 from branchcrush.fabric import chance_range
-from branchcrush.plotting.style import FAINT, MEASURED, axes
+from branchcrush.plotting.style import FAINT, STATES, axes
 
-# As in `plotting.sharing`, beside whose panels this one stands.
-_STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEASURED)}
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}
 
 
@@ -27,7 +25,7 @@ def plot_fabric(table, summary, ax=None):
     """
     ax = axes(ax)
     largest = 0.0
-    for where, (label, color) in _STATES.items():
+    for where, (label, color) in STATES.items():
         rows = table[table["where"] == where]
         if rows.empty:
             continue

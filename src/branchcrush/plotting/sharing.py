@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, interval_text
-
-_STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEASURED)}
+from branchcrush.plotting.style import FAINT, MODEL, OTHER, STATES, axes, interval_text
 
 
 def plot_branch_shielding(table, summary, ax=None):
@@ -24,7 +22,7 @@ def plot_branch_shielding(table, summary, ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         rows = rows[rows["branches"] >= 20]
         fit = summary[where]["shielding"]["branches"]
         limits = (fit[f"shielding_exponent{part}"] for part in ("", "_low", "_high"))
@@ -67,7 +65,7 @@ def plot_grain_shielding(table, reading="volume", ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         for counted, marker in (("all", "o"), ("load-bearing", "^")):
             part = rows[(rows["grains_counted"] == counted) & (rows["grains"] >= 10)]
             part = part[part[f"energy_per_{reading}"] > 0]
@@ -113,7 +111,7 @@ def plot_force_distribution(table, summary, ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         rows = rows[rows["contacts"] > 0]
         x = (rows["force_low"] + rows["force_high"]) / 2.0
         _points(ax, x, rows, "density", color, label, floor=1e-6)
@@ -159,7 +157,7 @@ def plot_force_by_length(table, summary, radius_max, ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         fit = summary[where]["forces"]["by_length"]
         if fit:
             label += (
@@ -197,7 +195,7 @@ def plot_stress_by_radius(table, radius_max, ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         x = rows["mean_radius_m"] / radius_max
         _points(ax, x, rows, "stress_ratio", color, label)
         ax.plot(
@@ -235,7 +233,7 @@ def plot_stress_sharing(table, summary, ax=None):
     """
     ax = axes(ax)
     for where, rows in _states(table):
-        label, color = _STATES[where]
+        label, color = STATES[where]
         stress = summary[where]["stress"]
         limits = (stress[f"sharing_index{part}"] for part in ("", "_low", "_high"))
         ax.plot(
@@ -264,7 +262,7 @@ def plot_stress_sharing(table, summary, ax=None):
 
 
 def _states(table):
-    return ((where, table[table["where"] == where]) for where in _STATES)
+    return ((where, table[table["where"] == where]) for where in STATES)
 
 
 def _points(ax, x, rows, column, color, label, marker="o", floor=0.0):
