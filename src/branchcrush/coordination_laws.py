@@ -14,8 +14,6 @@ JAMMING_PREFACTOR = 7.8
 # Nearer, the jamming point's own uncertainty counts; farther, overlaps are large.
 _NEAREST, _FARTHEST = 0.003, 0.1
 _MIDDLE = np.log(np.sqrt(_NEAREST * _FARTHEST))
-# Of phi_J: farther, phi - phi_J is known to a fifth and its root to a tenth.
-_UNCERTAINTIES = 5.0
 
 
 def smith(void_ratio):
@@ -152,7 +150,6 @@ def isostatic_number(network):
 def jamming_law_fit(
     above_jamming,
     coordination,
-    uncertainty=None,
     isostatic=None,
     *,
     confidence=0.95,
@@ -165,7 +162,7 @@ def jamming_law_fit(
         \kappa^* - \kappa^*_{iso} = b\, (\phi - \phi_J)^{\nu}
 
     a by least squares, b and nu by least squares of the logarithms, over the states of each seed
-    from 0.003, or from five times the uncertainty of its phi_J if that is more, to 0.1 above
+    from 0.003 to 0.1 above
     jamming. nu leaves out states that are not above isostatic; `states_not_above` counts them, and
     many say that the isostatic number or phi_J is wrong.
 
@@ -175,8 +172,6 @@ def jamming_law_fit(
         phi - phi_J of the states of each seed, or sample, with its own phi_J [-].
     coordination : list of array_like
         kappa* of these states [-].
-    uncertainty : array_like, shape (S,), optional
-        Of each phi_J, one standard deviation; nan is taken as 0 [-].
     isostatic : list of array_like, optional
         `isostatic_number` of these states; 6 without it, which is right in a periodic cell.
     confidence, resamples, rng
@@ -196,14 +191,11 @@ def jamming_law_fit(
     (8.0, 0.5, 3)
     """
     seeds = len(above_jamming)
-    uncertainty = np.zeros(seeds) if uncertainty is None else np.nan_to_num(uncertainty)
     isostatic = [ISOSTATIC] * seeds if isostatic is None else isostatic
     sums, states, not_above = [], 0, 0
-    for x, number, error, least in zip(
-        above_jamming, coordination, uncertainty, isostatic, strict=True
-    ):
+    for x, number, least in zip(above_jamming, coordination, isostatic, strict=True):
         x, excess = np.asarray(x, dtype=float), np.asarray(number, dtype=float) - least
-        near = (x >= max(_NEAREST, _UNCERTAINTIES * error)) & (x <= _FARTHEST)
+        near = (x >= _NEAREST) & (x <= _FARTHEST)
         x, excess = x[near], excess[near]
         positive = excess > 0.0
         # About the middle of the range, so that the spread of the logarithms is no difference of

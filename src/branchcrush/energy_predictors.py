@@ -12,6 +12,9 @@ from branchcrush.errors import FitError
 from branchcrush.gamma_regression import deviance, gamma_fit, parameter_intervals
 from branchcrush.intervals import pooled_interval
 
+# Over the mean energy of the packing: contacts of rattlers hold what relaxation leaves, 1e-10 of it
+# or less, and forces below 1e-4 of the mean are no part of the network.
+_RESIDUE = 1e-8
 # Seeds are left out in so many groups, or one by one.
 _FOLDS = 4
 # Draws of the same seeds for every predictor, the same whenever a result is made again.
@@ -76,9 +79,10 @@ _CONSTANT = _linear(lambda s, g: [], [])
 
 
 def branch_columns(radius_i, radius_j, energy, radius_max):
-    """Return the branches of a seed as the predictors take them; those without energy left out.
+    """Return the branches of a seed as the predictors take them; those that hold nothing left out.
 
-    A branch whose grains just touch has no logarithm of its energy, and nothing to share.
+    What a contact of a rattler holds, 1e-10 of the mean or less, is left by the relaxation and says
+    nothing of radii; its logarithm would weigh heavily. Left out is less than 1e-8 of the mean.
 
     Parameters
     ----------
@@ -100,7 +104,7 @@ def branch_columns(radius_i, radius_j, energy, radius_max):
     [[0.0], [0.6931471805599453], [3.0]]
     """
     radius_i, radius_j, energy = (np.asarray(x, dtype=float) for x in (radius_i, radius_j, energy))
-    kept = energy > 0.0
+    kept = energy > _RESIDUE * (energy.mean() if energy.size else 0.0)
     first, second = radius_i[kept] / radius_max, radius_j[kept] / radius_max
     return np.log(np.minimum(first, second)), np.log(np.maximum(first, second)), energy[kept]
 

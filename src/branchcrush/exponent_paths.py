@@ -81,7 +81,7 @@ def common_distance(paths):
     Returns
     -------
     float
-        phi - phi_J [-]; nan without samples.
+        phi - phi_J [-]; nan without samples; those whose phi_J is unknown do not count.
 
     Examples
     --------
@@ -90,6 +90,5 @@ def common_distance(paths):
     0.12
     """
     ends = [path["solid_fraction_above_jamming"].max() for path in paths]
-    if not ends or not np.isfinite(ends).all():
-        return float("nan")
-    return float(np.floor(min(ends) * 100.0 + 1e-9) / 100.0)
+    known = [end for end in ends if np.isfinite(end)]
+    return float(np.floor(min(known) * 100.0 + 1e-9) / 100.0) if known else float("nan")

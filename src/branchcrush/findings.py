@@ -8,11 +8,13 @@ from branchcrush.exponent_paths import PAPER, at_distance, crossing
 # How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
 GOOD_DISTANCE = 0.06
 _RESAMPLING = 24
+# Where tails of the forces begin, in mean forces.
+_TAIL = 2.0
 # Explained deviances less apart than this are the same but for rounding.
 _TIED = 1e-6
 
 
-def finding_row(name, settings, fit, numbers, shared, path, states, distance):
+def finding_row(name, settings, fit, numbers, shared, path, states, distance, intervals):
     """Return the row of `findings.csv` of a sample.
 
     Parameters
@@ -28,11 +30,13 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance):
         `coordination.csv` of the sample.
     distance : float
         From `exponent_paths.common_distance` [-].
+    intervals : dict
+        confidence and resamples.
 
     Returns
     -------
     dict
-        Empty where a sample has no data; `reason` then says why.
+        Only what a sample has data for; `reason` then says why.
     """
     row = {
         "sample": name,
@@ -41,9 +45,20 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance):
     }
     reasons = [part["reason"] for part in (fit, numbers, shared) if part.get("reason")]
     row["reason"] = reasons[0] if reasons else None
-    if reasons:
-        return row
-    row |= {"seeds": fit["seeds"], "solid_fraction": fit["solid_fraction"]}
+    if "reason" not in fit:
+        row |= _exponents(fit, path, distance)
+        row |= _split(fit, "end")
+        row |= _split(fit["near_jamming"], "near")
+    if "reason" not in numbers:
+        row |= _lengths(numbers)
+        row |= _coordination(numbers, states, intervals)
+    if "reason" not in shared:
+        row |= _shared(shared["end"])
+    return row
+
+
+def _exponents(fit, path, distance):
+    row = {"seeds": fit["seeds"], "solid_fraction": fit["solid_fraction"]}
     row["distance_at_end"] = float(path["solid_fraction_above_jamming"].iloc[-1])
     for part in ("", "_low", "_high"):
         row[f"exponent_at_end{part}"] = fit[f"exponent{part}"]
@@ -51,11 +66,7 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance):
     found = at_distance(path, distance)
     row |= dict(zip(_limits("exponent_at_distance"), found, strict=True))
     row["distance_of_exponent_3"] = crossing(path)
-    row |= _split(fit, "end")
-    row |= _split(fit["near_jamming"], "near")
-    row |= _lengths(numbers)
-    row |= _coordination(numbers, states)
-    return row | _shared(shared["end"])
+    return row
 
 
 def _limits(name):
@@ -108,12 +119,13 @@ def _lengths(numbers):
     return row
 
 
-def _coordination(numbers, states):
+def _coordination(numbers, states, intervals):
     seeds = [seed for _, seed in states.groupby("seed_number")]
     found = jamming_law_fit(
         [seed["solid_fraction_above_jamming"] for seed in seeds],
         [seed["mechanical_coordination_number"] for seed in seeds],
         isostatic=[seed["isostatic_number"] for seed in seeds],
+        **intervals,
         rng=np.random.default_rng(_RESAMPLING),
     )
     laws = {
@@ -136,21 +148,20 @@ def _shared(end):
     row = {name: branches.get(name) for name in _limits("shielding_exponent")}
     for name in (*_limits("unequal_over_equal"), "radius_ratio_to", "unequal_branches"):
         row[f"shielding_{name}"] = branches.get(name)
+    row["shielding_claim_per_branch"] = branches.get("claim")
     for name in ("largest_neighbour_ratio", "neighbour_ratio_from", "grains"):
         row[f"shielding_{name}"] = shielding["grains"][name]
     for reading in ("contact", "grain", "volume"):
         for name in _limits(f"energy_per_{reading}"):
             row[f"shielding_{name}"] = shielding["grains"][name]
         row[f"shielding_claim_per_{reading}"] = shielding["grains"][f"claim_per_{reading}"]
-    for kind in ("all_grains", "load_bearing"):
-        for name in _limits(f"exponent_{kind}"):
-            row[f"grain_energy_{name}"] = shielding["grain_energy"].get(name)
+    # Of all grains it is no power of the radius, as rattlers hold nothing.
+    for name in _limits("exponent_load_bearing"):
+        row[f"grain_energy_{name}"] = shielding["grain_energy"].get(name)
     for name in _limits("exponent"):
         row[f"force_{name}"] = forces["by_length"].get(name)
-    for name in _limits("decay_rate"):
-        row[f"force_{name}_from_2"] = tails[2.0][name]
-    for name in _limits("squared_variation"):
-        row[f"force_tail_{name}_from_1"] = tails[1.0][name]
+    for name in (*_limits("decay_rate"), *_limits("squared_variation")):
+        row[f"force_tail_{name}"] = tails[_TAIL][name]
     for kind in ("branches", "forces"):
         for name in ("deviator_over_expected", "by_chance_low", "by_chance_high"):
             row[f"fabric_{kind}_{name}"] = end["fabric"][kind][name]
@@ -174,10 +185,9 @@ def verdicts(rows):
         interval of n; `power_law_fails`, by that of the curvature; best_<predictor> at the end;
         reduced_radius_better and grain_size_worse than branch length, by the paired interval;
         lengths_good and lengths_bad, by the distance of random parking near jamming; and
-        claim_<reading>_<answer> of the shielding.
+        claim_<contact, grain, volume, branch>_<supported, contradicted, undecided, no_such>.
     """
-    rows = [row for row in rows if not row["reason"]]
-    found = {"known": [row["sample"] for row in rows]}
+    found = {"known": [row["sample"] for row in rows if row.get("exponent_at_end") is not None]}
 
     def sort(key, row, condition):
         found.setdefault(key, [])
@@ -186,15 +196,15 @@ def verdicts(rows):
 
     for row in rows:
         for place in ("at_end", "at_distance"):
-            low, high = (row[f"exponent_{place}{part}"] for part in ("_low", "_high"))
+            low, high = (row.get(f"exponent_{place}{part}") for part in ("_low", "_high"))
             told = _told(low, high)
             sort(f"three_{place}_holds", row, told and low <= PAPER <= high)
             sort(f"three_{place}_below", row, told and high < PAPER)
             sort(f"three_{place}_above", row, told and low > PAPER)
-        low, high = row["curvature_low_end"], row["curvature_high_end"]
+        low, high = row.get("curvature_low_end"), row.get("curvature_high_end")
         sort("power_law_fails", row, _told(low, high) and not low <= 0.0 <= high)
         for name in ("branch_length", "reduced_radius", "both_radii", "grain_size"):
-            sort(f"best_{name}", row, row["best_predictor_end"] == name)
+            sort(f"best_{name}", row, row.get("best_predictor_end") == name)
         low = row.get("reduced_radius_over_length_low_end")
         sort("reduced_radius_better", row, _told(low) and low > 0.0)
         high = row.get("grain_size_over_length_high_end")
@@ -202,10 +212,12 @@ def verdicts(rows):
         distance = row.get("ks_parking_near")
         sort("lengths_good", row, _told(distance) and distance <= GOOD_DISTANCE)
         sort("lengths_bad", row, _told(distance) and distance > GOOD_DISTANCE)
-        for reading in ("contact", "grain", "volume"):
-            for claim in ("supported", "contradicted", "undecided", "no such grain"):
-                key = f"claim_{reading}_{claim.replace(' ', '_')}"
-                sort(key, row, row[f"shielding_claim_per_{reading}"] == claim)
+        for reading in ("contact", "grain", "volume", "branch"):
+            answer = row.get(f"shielding_claim_per_{reading}")
+            for claim in ("supported", "contradicted", "undecided"):
+                sort(f"claim_{reading}_{claim}", row, answer == claim)
+            nothing = answer in ("no such grain", "no such branch")
+            sort(f"claim_{reading}_no_such", row, nothing)
     return found
 
 

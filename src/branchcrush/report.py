@@ -1,11 +1,13 @@
 """The tables over all samples, and the page that a person opens."""
 
 import base64
+from collections import defaultdict
 from pathlib import Path
 
 from jinja2 import Environment, StrictUndefined
 
 from branchcrush import __version__
+from branchcrush.findings import GOOD_DISTANCE
 
 
 def comparison_row(name, fit, model, certificate):
@@ -78,7 +80,8 @@ def render_report(template, samples):
     ]
     for page in pages:
         page["fit"]["predictors"] = [
-            {"reason": None, **predictor} for predictor in page["fit"].get("predictors", [])
+            {"reason": None, "left_out_reason": None, **predictor}
+            for predictor in page["fit"].get("predictors", [])
         ]
         page["fit"]["curvature"] = {"reason": None, **page["fit"].get("curvature", {})}
     return environment.from_string(template).render(samples=pages, version=__version__)
@@ -104,9 +107,15 @@ def render_findings(template, rows, verdicts, figures):
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined)
     environment.filters |= {"image": _image, "number": _number, "estimate": _estimate}
-    distance = next((row["distance"] for row in rows if not row["reason"]), None)
+    # A study of which no sample has a number has no column for it.
+    rows = [defaultdict(lambda: None, row) for row in rows]
     return environment.from_string(template).render(
-        rows=rows, verdicts=verdicts, distance=distance, figures=figures, version=__version__
+        rows=rows,
+        verdicts=verdicts,
+        distance=next((row["distance"] for row in rows if row["distance"] is not None), None),
+        good=GOOD_DISTANCE,
+        figures=figures,
+        version=__version__,
     )
 
 

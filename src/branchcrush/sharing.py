@@ -23,7 +23,7 @@ TABLES = (
 _RESAMPLING = 23
 
 
-def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, resamples):
+def shared_in_state(networks, vectors, edges, classes, contact_exponent, *, confidence, resamples):
     """Return how the seeds of a sample share energy, force and stress in one state.
 
     Parameters
@@ -34,6 +34,8 @@ def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, r
         Branch vectors of each, in the order of its contacts: `fabric.branch_vectors` [m].
     edges : array_like, shape (n+1,)
         Bins of branch length, from the smallest diameter to the largest [m].
+    classes : array_like, shape (K+1,)
+        Classes of radius, from `touching.sample_classes` [m].
     contact_exponent : float
         1 for linear contacts, 3/2 for Hertz.
     confidence, resamples
@@ -74,7 +76,7 @@ def shared_in_state(networks, vectors, edges, contact_exponent, *, confidence, r
     )
     tables["fabric"] = pd.DataFrame(rows).rename_axis("seed_number").reset_index()
 
-    of_stress, stress = stress_sharing_result(networks, **drawn())
+    of_stress, stress = stress_sharing_result(networks, classes, **drawn())
     summary = {
         "shielding": shielding,
         "forces": forces,

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from branchcrush.contact_statistics import radius_classes
 from branchcrush.energy_split import bin_numbers
 from branchcrush.grains import grain_stress_volume, solid_volume
 from branchcrush.intervals import pooled_interval
@@ -141,28 +140,26 @@ def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
     return table, summary
 
 
-def stress_sharing_result(networks, *, confidence=0.95, resamples=2000, rng):
+def stress_sharing_result(networks, classes, *, confidence=0.95, resamples=2000, rng):
     r"""Return all that this module tells of the stress of a sample in one state.
 
     Parameters
     ----------
     networks : list of networks.Network
         One a seed.
+    classes : array_like, shape (K+1,)
+        Classes of radius [m].
     confidence, resamples, rng
         As for `intervals.pooled_interval`.
 
     Returns
     -------
     tables : dict of dict of ndarray
-        stress_by_radius, in `contact_statistics.radius_classes`, and stress_sharing.
+        stress_by_radius and stress_sharing.
     summary : dict
         As of `stress_sharing`.
     """
     options = {"confidence": confidence, "resamples": resamples, "rng": rng}
-    classes = radius_classes(
-        np.concatenate([network.radius for network in networks]),
-        np.concatenate([network.contacts for network in networks]),
-    )
     by_radius = stress_by_radius(networks, classes, **options)
     table, summary = stress_sharing(networks, **options)
     return {"stress_by_radius": by_radius, "stress_sharing": table}, summary

@@ -252,7 +252,9 @@ def test_units_and_the_order_of_i_and_j_change_no_exponent(state, radius_unit, e
 
 
 def test_branches_without_energy_are_left_out_of_the_columns():
-    small, large, energy = branch_columns([2.0, 1.0, 4.0], [1.0, 1.0, 3.0], [5.0, 0.0, 7.0], 4.0)
+    small, large, energy = branch_columns(
+        [2.0, 1.0, 4.0, 1.0], [1.0, 1.0, 3.0, 3.0], [5.0, 0.0, 7.0, 1e-9], 4.0
+    )
     assert_allclose(np.exp(small), [0.25, 0.75])
     assert_allclose(np.exp(large), [0.5, 1.0])
     assert energy.tolist() == [5.0, 7.0]

@@ -7,6 +7,7 @@ import pytest
 from branchcrush.exponent_paths import at_distance, common_distance, crossing
 from branchcrush.findings import finding_row, verdicts
 
+INTERVALS = {"confidence": 0.95, "resamples": 100}
 DISTANCES = np.array([0.0, 0.05, 0.1, 0.15])
 
 
@@ -58,7 +59,10 @@ def test_common_distance_is_the_shortest_rounded_down():
     ends = [path_of([2.0, 3.0], distances=[0.0, end]) for end in (0.131, 0.2, 0.149)]
     assert common_distance(ends) == 0.13
     assert np.isnan(common_distance([]))
-    assert np.isnan(common_distance([path_of([2.0, 3.0], distances=[np.nan, np.nan])]))
+    unknown = path_of([2.0, 3.0], distances=[np.nan, np.nan])
+    assert np.isnan(common_distance([unknown]))
+    # A sample whose jamming point is unknown does not blank the others.
+    assert common_distance([unknown, *ends]) == 0.13
 
 
 # --- rows ----------------------------------------------------------------------------------------
@@ -101,7 +105,7 @@ def split(curvature=(0.5, 0.2, 0.8)):
     }
 
 
-def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain"):
+def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain", branches=None):
     low = {"exponent": exponent[0], "exponent_low": exponent[1], "exponent_high": exponent[2]}
     fit = {**low, "seeds": 3, "solid_fraction": 0.75, **split(), "near_jamming": split()}
     lengths = [{"name": "parking", "kolmogorov_smirnov": parking}]
@@ -128,7 +132,7 @@ def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain"):
         for part in ("", "_low", "_high")
     }
     end = {
-        "shielding": {"grains": grains, "branches": {}, "grain_energy": {}},
+        "shielding": {"grains": grains, "branches": branches or {}, "grain_energy": {}},
         "forces": {"tails": [{"threshold": t, **tail} for t in (1.0, 2.0)], "by_length": low},
         "fabric": {"branches": fabric, "forces": fabric},
         "stress": stress,
@@ -138,7 +142,9 @@ def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain"):
 
 def row_of(name="one", exponents=(2.5, 2.8, 3.0, 3.2), **options):
     settings = {"boundary": "walls", "contact": {"law": "hertz"}}
-    return finding_row(name, settings, *results(**options), path_of(exponents), states_of(), 0.1)
+    return finding_row(
+        name, settings, *results(**options), path_of(exponents), states_of(), 0.1, INTERVALS
+    )
 
 
 def test_row_says_what_the_results_say():
@@ -157,15 +163,28 @@ def test_row_says_what_the_results_say():
     assert row["best_predictor_end"] == "reduced_radius"
 
 
-@pytest.mark.parametrize("part", range(3))
-def test_row_of_a_sample_without_data_says_why(part):
+@pytest.mark.parametrize(
+    ("part", "column"),
+    [(0, "exponent_at_end"), (1, "coordination_number_near"), (2, "sharing_index")],
+)
+def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(part, column):
     parts = list(results())
     parts[part] = {"reason": "no load"}
     settings = {"boundary": "periodic", "contact": {"law": "linear"}}
-    row = finding_row("loose", settings, *parts, path_of([2.0] * 4), states_of(), 0.1)
+    row = finding_row("part", settings, *parts, path_of([2.0] * 4), states_of(), 0.1, INTERVALS)
     assert row["reason"] == "no load"
+    kept = {"exponent_at_end", "coordination_number_near", "sharing_index"} - {column}
+    assert kept <= set(row) and column not in row
+    assert verdicts([row])["known"] == ([] if part == 0 else ["part"])
+
+
+def test_row_of_a_sample_without_any_data_says_only_why():
+    settings = {"boundary": "periodic", "contact": {"law": "linear"}}
+    nothing = [{"reason": "no load"}] * 3
+    row = finding_row("loose", settings, *nothing, None, None, 0.1, INTERVALS)
     assert set(row) == {"sample", "boundary", "contact_law", "reason"}
-    assert verdicts([row]) == {"known": []}
+    found = verdicts([row])
+    assert not any(found.values())
 
 
 # --- verdicts ------------------------------------------------------------------------------------
@@ -179,6 +198,12 @@ def test_three_holds_where_the_interval_holds_it(interval, side):
     found = verdicts([row_of(exponent=interval)])
     for other in ("holds", "below", "above"):
         assert found[f"three_at_end_{other}"] == (["one"] if other == side else [])
+
+
+def test_claims_of_branches_are_told_beside_those_of_grains():
+    found = verdicts([row_of("few"), row_of("most", branches={"claim": "supported"})])
+    assert found["claim_branch_supported"] == ["most"]
+    assert found["claim_branch_no_such"] == []
 
 
 def test_one_seed_has_no_interval_and_is_on_no_side():
@@ -195,6 +220,6 @@ def test_each_sample_is_on_its_side_of_each_question():
     assert found["reduced_radius_better"] == ["good", "bad"]
     assert found["grain_size_worse"] == ["good", "bad"]
     assert found["claim_volume_contradicted"] == ["bad"]
-    assert found["claim_volume_no_such_grain"] == ["good"]
+    assert found["claim_volume_no_such"] == ["good"]
     assert found["best_reduced_radius"] == ["good", "bad"]
     assert found["best_branch_length"] == []

@@ -74,14 +74,6 @@ def test_isostatic_number_between_walls_mends_exponent_and_prefactor():
     assert with_six["prefactor"] < 7.0 and with_six["exponent"] > 0.55
 
 
-def test_states_too_near_for_what_is_known_of_jamming_are_left_out():
-    number = [np.where(PHI < 0.015, 100.0, jamming_law(PHI))] * 2
-    fit = jamming_law_fit([PHI, PHI], number, [0.004, 0.004], rng=generator())
-    assert fit["states"] == 6
-    assert_allclose(fit["prefactor"], 7.8)
-    assert jamming_law_fit([PHI, PHI], number, [np.nan, 0.004], rng=generator())["states"] == 8
-
-
 def test_states_below_isostatic_count_for_the_prefactor_and_are_told():
     number = np.append(5.9, jamming_law(PHI[1:]))
     fit = jamming_law_fit([PHI], [number], rng=None)

@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 from branchcrush.branches import COLUMNS, final_energy_split, seed_branches
 from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import mean_path
+from branchcrush.errors import FitError
 from branchcrush.gradings import single, uniform
 from branchcrush.length_predictions import fine_edges, predictions
 from branchcrush.networks import state_network
@@ -118,11 +119,12 @@ def test_who_touches_whom(sample):
 def test_what_is_shared(sample):
     grading, seeds, through_json = sample
     edges, rng = bin_edges(*grading.support()), np.random.default_rng(1)
+    classes = sample_classes(grading, *seeds[0], STATES[-1])
     found = {}
     for where, state in (("near_jamming", 4), ("end", 7)):
         networks = [state_network(*seed, state) for seed in seeds]
         vectors = [rng.normal(size=(network.i.size, 3)) for network in networks]
-        found[where, state] = shared_in_state(networks, vectors, edges, 1.0, **OPTIONS)
+        found[where, state] = shared_in_state(networks, vectors, edges, classes, 1.0, **OPTIONS)
     tables, summary = both_states(found)
     summary = through_json(summary)
     drawn = [
@@ -146,11 +148,13 @@ def test_what_is_shared(sample):
 
 def test_predictors_and_slopes(sample):
     grading, seeds, through_json = sample
-    if grading.is_discrete:
-        pytest.skip("grains of one radius have no energy split")
     edges = bin_edges(*grading.support())
     branches = [seed_branches(contacts[[*COLUMNS]], STATES, edges) for _, contacts, _ in seeds]
     paths = [path()] * len(seeds)
+    if grading.is_discrete:
+        with pytest.raises(FitError, match="two or more branch lengths"):
+            final_energy_split(branches, paths, edges, 0.6, **OPTIONS)
+        return
     fit = through_json(final_energy_split(branches, paths, edges, 0.6, **OPTIONS)[1])
     assert predictors.plot_predictors(fit).get_xlabel()
     assert predictors.plot_slopes(fit).get_legend()

@@ -51,8 +51,16 @@ def sample(seed=1, seeds=4, radii=RADII, exponent=3.0, noise=True):
     return networks, vectors
 
 
+def classes_of(networks):
+    radii, contacts = (
+        np.concatenate([getattr(one, name) for one in networks]) for name in ("radius", "contacts")
+    )
+    return radius_classes(radii, contacts)
+
+
 def shared(networks, vectors, edges=EDGES, exponent=1.0):
-    return shared_in_state(networks, vectors, edges, exponent, **OPTIONS)
+    classes = classes_of(networks)
+    return shared_in_state(networks, vectors, edges, classes, exponent, **OPTIONS)
 
 
 def text(tables, summary):
@@ -107,20 +115,12 @@ def test_numbers_are_those_of_the_parts(made, found):
         assert tail["decay_rate"] == expected["decay_rate"]
 
 
-def test_classes_of_radius_hold_as_many_grains_as_ends_of_contacts():
+def test_stress_is_told_in_the_classes_that_were_given():
     networks, vectors = sample(radii=np.linspace(0.02, 1.0, 500))
-    # Contacts of few grains alone: classes by the number of grains would be other ones.
-    networks = [
-        one._replace(radius=np.sort(one.radius), i=one.i % 9, j=110 + one.j % 9) for one in networks
-    ]
-    tables, _ = shared(networks, vectors)
-    radii, contacts = (
-        np.concatenate([getattr(one, name) for one in networks]) for name in ("radius", "contacts")
-    )
-    edges = radius_classes(radii, contacts)
-    assert not np.array_equal(edges, radius_classes(radii, 0 * contacts))
-    assert tables["stress_by_radius"]["radius_low_m"].tolist() == edges[:-1].tolist()
-    assert tables["stress_by_radius"]["radius_high_m"].tolist() == edges[1:].tolist()
+    classes = np.array([0.02, 0.3, 0.4, 1.0])
+    tables, _ = shared_in_state(networks, vectors, EDGES, classes, 1.0, **OPTIONS)
+    assert tables["stress_by_radius"]["radius_low_m"].tolist() == classes[:-1].tolist()
+    assert tables["stress_by_radius"]["radius_high_m"].tolist() == classes[1:].tolist()
 
 
 def test_every_contact_is_in_every_table_of_contacts(found):

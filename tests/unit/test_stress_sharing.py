@@ -209,7 +209,7 @@ def test_intervals_of_the_index_cover_the_truth():
 
 def test_the_result_is_that_of_its_parts():
     networks = [random_network(rng_of(seed), 60, 200, 20) for seed in range(3)]
-    tables, summary = stress_sharing_result(networks, resamples=20, rng=rng_of())
+    tables, summary = stress_sharing_result(networks, [0.0, 0.5, 2.0], resamples=20, rng=rng_of())
     _, expected = stress_sharing(networks, resamples=20, rng=rng_of())
     assert list(tables) == ["stress_by_radius", "stress_sharing"]
     assert tables["stress_by_radius"]["grains"].sum() == 180

@@ -152,6 +152,7 @@ rule findings:
         "../envs/branchcrush.yaml"
     params:
         samples=SAMPLES,
+        intervals=INTERVALS,
     script:
         "../scripts/findings.py"
 

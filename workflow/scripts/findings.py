@@ -9,11 +9,12 @@ from branchcrush.tables import provenance, read_json, read_table, write_table
 
 with job(snakemake.log[0]):
     files, samples = snakemake.input, snakemake.params.samples
+    intervals = snakemake.params.intervals
     paths = [read_table(path) for path in files.paths]
     distance = common_distance([path for path in paths if "reason" not in path])
     states = [read_table(path) for path in files.states]
     rows = [
-        finding_row(name, sample, *map(read_json, results), path, table, distance)
+        finding_row(name, sample, *map(read_json, results), path, table, distance, intervals)
         for (name, sample), *results, path, table in zip(
             samples.items(), files.fits, files.numbers, files.shared, paths, states, strict=True
         )

@@ -15,7 +15,8 @@ with job(snakemake.log[0]):
     styles, dpi = plots.sample_styles(samples), snakemake.params.dpi
     rows, states = read_table(files.rows), read_table(files.states)
     rows = rows.astype(object).where(rows.notna(), None)
-    known = rows[rows["reason"].isna()]
+    known = rows[rows["exponent_at_end"].notna()] if "exponent_at_end" in rows else rows[:0]
+    states = states[states["state"].notna()] if "state" in states else states[:0]
 
     def tables(kind):
         found = {name: read_table(path) for name, path in zip(samples, files[kind], strict=True)}

@@ -14,6 +14,7 @@ from branchcrush.networks import state_network
 from branchcrush.seed_files import read_contacts
 from branchcrush.sharing import TABLES, both_states, shared_in_state
 from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
+from branchcrush.touching import sample_classes
 
 
 def frame_of(dump, state):
@@ -22,12 +23,15 @@ def frame_of(dump, state):
 
 with job(snakemake.log[0]):
     files, params = snakemake.input, snakemake.params
-    edges = bin_edges(*grading_of(params.sample["grading"]).support(), params.bins)
+    grading = grading_of(params.sample["grading"])
+    edges = bin_edges(*grading.support(), params.bins)
     exponent = contact_law(**params.sample["contact"]).exponent
     try:
         used, paths = certified_loading(
             read_table(files.certificate), [read_table(path) for path in files.paths]
         )
+        last = int(paths[0]["state"].iloc[-1])
+        classes = sample_classes(grading, *read_contacts(files, used[0]), last)
         found = {}
         for where, row in (("near_jamming", 0), ("end", -1)):
             state = int(paths[0]["state"].iloc[row])
@@ -35,6 +39,7 @@ with job(snakemake.log[0]):
                 [state_network(*read_contacts(files, number), state) for number in used],
                 [branch_vectors(frame_of(files.pairs[number], state)) for number in used],
                 edges,
+                classes,
                 exponent,
                 **params.intervals,
             )

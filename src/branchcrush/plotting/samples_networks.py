@@ -23,7 +23,7 @@ def plot_coordination(states, styles, ax=None):
     Axes
     """
     ax = axes(ax)
-    for name, rows in _loaded(states):
+    for name, rows in states.groupby("sample", sort=False):
         color = styles[name]["color"]
         ax.plot(
             rows["void_ratio"], rows["coordination_number"], ".", ms=1.5, color=color, alpha=0.5
@@ -62,7 +62,7 @@ def plot_jamming_law(states, styles, ax=None):
     Axes
     """
     ax = axes(ax)
-    for name, rows in _loaded(states):
+    for name, rows in states.groupby("sample", sort=False):
         style = styles[name]
         excess = rows["mechanical_coordination_number"] - rows["isostatic_number"]
         kept = (rows["solid_fraction_above_jamming"] > 1e-3) & (excess > 0.05)
@@ -117,7 +117,7 @@ def plot_branch_shielding(tables, styles, ax=None):
 
 
 def plot_grain_shielding(tables, styles, ax=None):
-    """Draw the energy of grains per volume against their radius over their neighbours', at the end.
+    """Draw the energy per contact of grains against their radius over their neighbours'.
 
     Parameters
     ----------
@@ -134,14 +134,15 @@ def plot_grain_shielding(tables, styles, ax=None):
     ax = axes(ax)
     for name, rows in _ends(tables):
         rows = rows[(rows["grains_counted"] == "all") & (rows["grains"] >= 10)]
-        _line(ax, rows["mean_neighbour_ratio"], rows["energy_per_volume"], styles[name])
+        _line(ax, rows["mean_neighbour_ratio"], rows["energy_per_contact"], styles[name])
     ax.axhline(1.0, color=FAINT, lw=0.8)
     ax.axvline(10.0, color=MODEL, lw=0.8, ls="--")
-    ax.axhline(0.1, color=MODEL, lw=0.8, ls="--", label="the claim: below 0.1 from 10 on")
+    claim = ax.axhline(0.1, color=MODEL, lw=0.8, ls="--", label="claim: below 0.1 from 10 on")
     ax.set(xscale="log", xlabel=r"radius over neighbours' mean $R/\langle R\rangle_{nb}$ [-]")
-    ax.set(yscale="log", ylabel="energy per volume over the mean [-]")
-    ax.set_ylim(0.02, max(5.0, ax.get_ylim()[1]))
-    ax.legend(loc="lower left")
+    ax.set(yscale="log", ylabel="energy per contact over the mean [-]")
+    ax.set_ylim(0.005, max(5.0, ax.get_ylim()[1]))
+    shown = legend_handles({name: styles[name] for name in tables})
+    ax.legend(handles=[*shown, claim], loc="lower left", ncols=2)
     return ax
 
 
@@ -210,11 +211,6 @@ def plot_forces(tables, styles, ax=None):
     return ax
 
 
-def _loaded(states):
-    """Return the states of each sample that has any."""
-    return states[states["state"].notna()].groupby("sample", sort=False)
-
-
 def _ends(tables):
     return ((name, table[table["where"] == "end"]) for name, table in tables.items())
 
@@ -234,4 +230,4 @@ def _line(ax, x, y, style):
 
 
 def _of(states, styles):
-    return {name: styles[name] for name, _ in _loaded(states)}
+    return {name: styles[name] for name, _ in states.groupby("sample", sort=False)}

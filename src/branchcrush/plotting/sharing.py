@@ -48,7 +48,7 @@ def plot_branch_shielding(table, summary, ax=None):
     return ax
 
 
-def plot_grain_shielding(table, reading="volume", ax=None):
+def plot_grain_shielding(table, reading="contact", ax=None):
     """Draw the energy of grains against their radius over that of their neighbours.
 
     Parameters
@@ -56,7 +56,7 @@ def plot_grain_shielding(table, reading="volume", ax=None):
     table : DataFrame
         `shielding_grains.csv`.
     reading : str
-        volume, contact or grain.
+        contact, grain or volume.
     ax : Axes, optional
 
     Returns
