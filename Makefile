@@ -59,7 +59,7 @@ quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.cs
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
 	$(MADE) > docs/results/quality_made.txt
 
-findings: $(READY) ## what the energy of a branch depends on, in five gradings: docs/energy_split.md, 50 minutes on 2 cores
+findings: $(READY) ## what the energy of a branch depends on, in five gradings: docs/energy_split.md, three quarters of an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/energy_split
 	cp studies/energy_split/results/findings.csv studies/energy_split/results/exponents.csv docs/results
 	for figure in exponents lengths energies coordination shielding forces; do \

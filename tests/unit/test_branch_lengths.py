@@ -121,7 +121,7 @@ def test_no_length_is_outside_the_support(grading):
 def test_share_of_a_narrow_bin_is_the_convolution_of_the_radii(ratio, alpha, place):
     grading = uniform(1.0, ratio) if alpha is None else fractal(1.0, ratio, alpha)
     length = 2.0 + place * (2 * ratio - 2.0)
-    edges = length + np.array([-1e-5, 1e-5]) * min(length - 2.0, 2 * ratio - length)
+    edges = length + np.array([-2e-6, 2e-6]) * min(length - 2.0, 2 * ratio - length)
     kink = 1.0 + ratio
     expected = density_of_lengths(grading, [length])
     found = random_contact_shares(grading, edges) / np.diff(edges)
