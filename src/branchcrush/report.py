@@ -7,7 +7,6 @@ from pathlib import Path
 from jinja2 import Environment, StrictUndefined
 
 from branchcrush import __version__
-from branchcrush.findings import GOOD_DISTANCE
 
 
 def comparison_row(name, fit, model, certificate):
@@ -87,7 +86,7 @@ def render_report(template, samples):
     return environment.from_string(template).render(samples=pages, version=__version__)
 
 
-def render_findings(template, rows, verdicts, figures):
+def render_findings(template, rows, verdicts, good, figures):
     """Return the page on which all samples are judged together, its figures inside.
 
     Parameters
@@ -98,6 +97,8 @@ def render_findings(template, rows, verdicts, figures):
         From `findings.finding_row`, None where there is no number.
     verdicts : dict
         From `findings.verdicts`.
+    good : float
+        Up to which distance a prediction of branch lengths is called good [-].
     figures : dict
         Paths by name.
 
@@ -113,7 +114,7 @@ def render_findings(template, rows, verdicts, figures):
         rows=rows,
         verdicts=verdicts,
         distance=next((row["distance"] for row in rows if row["distance"] is not None), None),
-        good=GOOD_DISTANCE,
+        good=good,
         figures=figures,
         version=__version__,
     )

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from branchcrush.findings import verdicts
+from branchcrush.findings import GOOD_DISTANCE, verdicts
 from branchcrush.jobs import job
 from branchcrush.plotting import samples as plots
 from branchcrush.plotting import samples_networks as networks
@@ -51,4 +51,6 @@ with job(snakemake.log[0]):
     figures = {name: output[name] for name in snakemake.params.figures}
     records = rows.to_dict("records")
     template = Path(files.template).read_text(encoding="utf-8")
-    write_text(output.page, render_findings(template, records, verdicts(records), figures))
+    write_text(
+        output.page, render_findings(template, records, verdicts(records), GOOD_DISTANCE, figures)
+    )
