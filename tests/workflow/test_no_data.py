@@ -98,3 +98,14 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
         assert len(figures) == 12
         for figure in figures:
             assert (image.imread(figure)[..., :3].min(axis=-1) < 0.9).any(), figure
+
+
+def test_findings_keep_what_grains_of_one_size_do_tell(no_data):
+    rows = read_table(no_data / "findings.csv").set_index("sample")
+    assert rows["reason"].to_dict() == {"alike": ONE_LENGTH, "loose": NO_LOAD}
+    assert 4 < rows.loc["alike", "coordination_number_end"] < 14
+    assert rows.loc["alike", "sharing_index"] == pytest.approx(0, abs=1e-9)
+    assert rows.loc["loose"].drop(["boundary", "contact_law", "reason"]).isna().all()
+    page = (no_data / "findings.html").read_text(encoding="utf-8")
+    assert f"Not all is known of loose: {NO_LOAD}." in page
+    assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
