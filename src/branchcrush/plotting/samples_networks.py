@@ -140,7 +140,7 @@ def plot_grain_shielding(tables, styles, ax=None):
     claim = ax.axhline(0.1, color=MODEL, lw=0.8, ls="--", label="claim: below 0.1 from 10 on")
     ax.set(xscale="log", xlabel=r"radius over neighbours' mean $R/\langle R\rangle_{nb}$ [-]")
     ax.set(yscale="log", ylabel="energy per contact over the mean [-]")
-    ax.set_ylim(0.005, max(5.0, ax.get_ylim()[1]))
+    ax.set_ylim(5e-4, max(5.0, ax.get_ylim()[1]))
     shown = legend_handles({name: styles[name] for name in tables})
     ax.legend(handles=[*shown, claim], loc="lower left", ncols=2)
     return ax
