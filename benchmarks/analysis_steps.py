@@ -290,9 +290,10 @@ def judge_state(path, grains):
     import numpy as np
     import pandas as pd
 
+    from branchcrush.bins import bin_edges, binned_sums
     from branchcrush.contact_law import LinearContact
     from branchcrush.contacts import mechanical_coordination_number, rattlers
-    from branchcrush.energy_split import bin_edges, binned_sums, power_law_fit
+    from branchcrush.energy_split import power_law_fit
     from branchcrush.loading_path import law_error, path_row, state_contacts, wall_contacts
     from branchcrush.packing import cube_edge
     from branchcrush.tables import read_packing, read_table

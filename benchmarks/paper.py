@@ -12,7 +12,8 @@ import numpy as np
 
 from benchmarks.codes import absent, branches, judged, loose_packing, run_case
 from benchmarks.measure import difference, mean_and_error, ratios
-from branchcrush.energy_split import bin_edges, binned_exponent, binned_sums
+from branchcrush.bins import bin_edges, binned_sums
+from branchcrush.energy_split import binned_exponent
 from branchcrush.grading_files import grading_of
 from branchcrush.loading import final_solid_fraction, strain_step
 from branchcrush.packing import cube_edge

@@ -13,8 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.dense import INPUTS, STIFFNESS
+from branchcrush.bins import bin_edges, binned_sums
 from branchcrush.contact_law import contact_law
-from branchcrush.energy_split import bin_edges, binned_exponent, binned_sums
+from branchcrush.energy_split import binned_exponent
 from branchcrush.errors import BranchcrushError, FitError
 from branchcrush.gradings import uniform
 from branchcrush.jamming import jamming_point

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from branchcrush.bins import binned_sums
 from branchcrush.energy_predictors import branch_columns, compared_predictors, curvature
-from branchcrush.energy_split import binned_exponent, binned_sums, cubic_r_squared, energy_split
+from branchcrush.energy_split import binned_exponent, cubic_r_squared, energy_split
 from branchcrush.ensemble import mean_path
 from branchcrush.errors import FitError
 from branchcrush.intervals import Interval
@@ -25,7 +26,7 @@ _RESAMPLING = 20
 class Branches(NamedTuple):
     """The branches of one seed in some of its states, in their order."""
 
-    sums: np.ndarray  # `energy_split.binned_sums` of each state, shape (states, 3, n)
+    sums: np.ndarray  # `bins.binned_sums` of each state, shape (states, 3, n)
     overlap_ratio: list[np.ndarray]  # overlap over distance of the centres, in each state [-]
     # Every branch of the first state and of the last, as `energy_predictors.branch_columns`: those
     # between are many, and what they say of the exponent is in the sums.
@@ -59,7 +60,7 @@ def seed_branches(contacts, states, edges):
 
 
 def state_sums(contacts, state, edges):
-    """Return the binned energies of one state of a seed, as `energy_split.binned_sums`.
+    """Return the binned energies of one state of a seed, as `bins.binned_sums`.
 
     Parameters
     ----------

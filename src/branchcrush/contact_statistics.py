@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from branchcrush.energy_split import bin_numbers
+from branchcrush.bins import bin_numbers
 from branchcrush.intervals import pooled_interval
 
 _CLASSES = 10

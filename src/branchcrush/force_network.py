@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from branchcrush.energy_split import binned_exponent, binned_sums
+from branchcrush.bins import binned_sums
+from branchcrush.energy_split import binned_exponent
 from branchcrush.errors import FitError
 from branchcrush.intervals import pooled_interval
 

@@ -6,8 +6,9 @@ cannot say it. Here it is counted, by branch and by grain.
 
 import numpy as np
 
+from branchcrush.bins import bin_numbers
 from branchcrush.energy_predictors import branch_columns, log_length
-from branchcrush.energy_split import bin_numbers, power_law_fit
+from branchcrush.energy_split import power_law_fit
 from branchcrush.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.grains import grain_energy, neighbour_ratio, solid_volume
 from branchcrush.intervals import pooled_interval

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.energy_split import bin_numbers
+from branchcrush.bins import bin_numbers
 from branchcrush.grains import grain_stress_volume, solid_volume
 from branchcrush.intervals import pooled_interval
 

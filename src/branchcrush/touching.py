@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from branchcrush.bins import bin_numbers
 from branchcrush.contact_statistics import (
     ContactSums,
     assortativity,
@@ -14,7 +15,6 @@ from branchcrush.contact_statistics import (
     radius_classes,
 )
 from branchcrush.coordination_laws import isostatic_number
-from branchcrush.energy_split import bin_numbers
 from branchcrush.intervals import pooled_interval
 from branchcrush.length_predictions import (
     distances,

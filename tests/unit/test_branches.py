@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from pandas.testing import assert_frame_equal
 
+from branchcrush.bins import bin_edges, binned_sums
 from branchcrush.branches import (
     COLUMNS,
     ENERGY_COLUMNS,
@@ -18,7 +19,7 @@ from branchcrush.branches import (
     state_sums,
 )
 from branchcrush.energy_predictors import log_length
-from branchcrush.energy_split import bin_edges, binned_sums, power_law_fit
+from branchcrush.energy_split import power_law_fit
 from branchcrush.errors import FitError
 
 RADIUS_MAX, STIFFNESS, AMPLITUDE = 1e-3, 1e6, 50.0

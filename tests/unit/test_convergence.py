@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
 
+from branchcrush.bins import bin_edges, binned_sums
 from branchcrush.convergence import convergence_table
-from branchcrush.energy_split import bin_edges, binned_sums
 
 EDGES = bin_edges(5e-6, 1e-3, 20)
 CENTRES = (EDGES[1:] + EDGES[:-1]) / 2

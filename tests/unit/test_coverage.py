@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from branchcrush.bins import bin_edges, binned_sums
 from branchcrush.energy_predictors import PREDICTORS, curvature, log_length
-from branchcrush.energy_split import bin_edges, binned_exponent, binned_sums
+from branchcrush.energy_split import binned_exponent
 from branchcrush.gamma_regression import gamma_fit, parameter_intervals
 
 EDGES = bin_edges(0.05, 1.0)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.energy_split import bin_edges
+from branchcrush.bins import bin_edges
 from branchcrush.force_network import (
     THRESHOLDS,
     force_by_length,

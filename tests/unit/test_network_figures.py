@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 from matplotlib import pyplot as plt
 
+from branchcrush.bins import bin_edges
 from branchcrush.branches import COLUMNS, final_energy_split, seed_branches
-from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import mean_path
 from branchcrush.errors import FitError
 from branchcrush.gradings import single, uniform

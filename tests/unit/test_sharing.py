@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 from pandas.testing import assert_frame_equal
 
+from branchcrush.bins import bin_edges
 from branchcrush.contact_statistics import radius_classes
-from branchcrush.energy_split import bin_edges
 from branchcrush.fabric import fabric_result
 from branchcrush.force_network import THRESHOLDS, force_tail, relative_forces
 from branchcrush.networks import Network

@@ -30,6 +30,7 @@ PURE = {
     "packing",
     "contacts",
     "contact_law",
+    "bins",
     "branches",
     "branch_lengths",
     "energy_split",

@@ -142,3 +142,9 @@ def finished(tmp_path_factory):
     assert run.returncode == 0, run.stdout + run.stderr
     project.output = run.stdout + run.stderr
     return project
+
+
+@pytest.fixture(scope="session")
+def sample(finished):
+    """The results of its sample."""
+    return finished.folder / "results" / "tiny"

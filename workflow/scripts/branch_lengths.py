@@ -1,7 +1,7 @@
 """Measure who touches whom along the loading, and the branch lengths, beside what is predicted."""
 
+from branchcrush.bins import bin_edges
 from branchcrush.branch_lengths import branch_length_table, branch_statistics
-from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import certified_loading, mean_path
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of

@@ -1,5 +1,6 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
+from branchcrush.bins import bin_edges
 from branchcrush.branches import (
     COLUMNS,
     end_state,
@@ -7,7 +8,6 @@ from branchcrush.branches import (
     final_energy_split,
     seed_branches,
 )
-from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
 from branchcrush.grading_files import grading_of

@@ -2,8 +2,8 @@
 
 from itertools import islice
 
+from branchcrush.bins import bin_edges
 from branchcrush.contact_law import contact_law
-from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
 from branchcrush.fabric import branch_vectors
@@ -17,8 +17,10 @@ from branchcrush.tables import no_data, provenance, read_table, write_json, writ
 from branchcrush.touching import sample_classes
 
 
-def frame_of(dump, state):
-    return next(islice(read_dump(dump), state, None))
+def vectors_in(dump, states):
+    """Read a dump once, as far as the last of the states."""
+    frames = islice(read_dump(dump), max(states) + 1)
+    return {state: branch_vectors(f) for state, f in enumerate(frames) if state in states}
 
 
 with job(snakemake.log[0]):
@@ -30,19 +32,25 @@ with job(snakemake.log[0]):
         used, paths = certified_loading(
             read_table(files.certificate), [read_table(path) for path in files.paths]
         )
-        last = int(paths[0]["state"].iloc[-1])
-        classes = sample_classes(grading, *read_contacts(files, used[0]), last)
-        found = {}
-        for where, row in (("near_jamming", 0), ("end", -1)):
-            state = int(paths[0]["state"].iloc[row])
-            found[where, state] = shared_in_state(
-                [state_network(*read_contacts(files, number), state) for number in used],
-                [branch_vectors(frame_of(files.pairs[number], state)) for number in used],
+        states = [int(paths[0]["state"].iloc[row]) for row in (0, -1)]
+        networks, vectors = [], []
+        for number in used:
+            packing = read_contacts(files, number)
+            if not networks:
+                classes = sample_classes(grading, *packing, states[-1])
+            networks.append({state: state_network(*packing, state) for state in states})
+            vectors.append(vectors_in(files.pairs[number], states))
+        found = {
+            (where, state): shared_in_state(
+                [seed[state] for seed in networks],
+                [seed[state] for seed in vectors],
                 edges,
                 classes,
                 exponent,
                 **params.intervals,
             )
+            for where, state in zip(("near_jamming", "end"), states, strict=True)
+        }
         tables, summary = both_states(found)
     except FitError as error:
         table, summary = no_data(error)

@@ -1,9 +1,9 @@
 """Compare the first seeds with themselves at twice the strain steps, and judge the sample."""
 
+from branchcrush.bins import bin_edges
 from branchcrush.branches import ENERGY_COLUMNS, state_sums
 from branchcrush.certificate import sample_certificate
 from branchcrush.convergence import convergence_table
-from branchcrush.energy_split import bin_edges
 from branchcrush.ensemble import end_of_loading
 from branchcrush.grading_files import grading_of
 from branchcrush.jobs import job
