@@ -3,8 +3,8 @@
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-from branchcrush.config import checked_config
-from branchcrush.config_file import config_file_problem
+from branchcrush.config.schema import checked_config
+from branchcrush.config.file import config_file_problem
 from branchcrush.errors import ConfigError
 
 min_version("9.17")
@@ -18,7 +18,7 @@ if "samples" not in config:  # none was named on the command line
 
 try:
     if workflow.is_main_process:
-        from branchcrush.config_checks import checked_study
+        from branchcrush.config.checks import checked_study
 
         SETTINGS = checked_study(config)
     else:  # a job of a study that was checked

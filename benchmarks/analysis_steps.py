@@ -41,7 +41,7 @@ def make_sample(name, seeds, grains, states, contacts, resamples):
     """Write the tables of an invented sample, and return the jobs of the rules on them."""
     import numpy as np
 
-    from branchcrush.config import checked_config
+    from branchcrush.config.schema import checked_config
 
     config = {
         "grading": {"form": "uniform", "basis": "number", "size": "radius", "unit": "m"}
@@ -80,10 +80,10 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     import numpy as np
     import pandas as pd
 
-    from branchcrush.contact_law import contact_law
-    from branchcrush.loading_path import path_row, state_contacts, wall_contacts
-    from branchcrush.packing import cube_edge
-    from branchcrush.tables import provenance, write_packing, write_table
+    from branchcrush.files.tables import provenance, write_packing, write_table
+    from branchcrush.loading.states import path_row, state_contacts, wall_contacts
+    from branchcrush.packings.contact_laws import contact_law
+    from branchcrush.packings.placement import cube_edge
 
     folder, law = Path(f"results/{sample}/seed_{seed}"), contact_law(**settings["contact"])
     origin = provenance(sample=sample, seed=seed, config=settings)
@@ -280,7 +280,7 @@ def _rules(runs, settings, study, resamples):
 
 def read_contacts(path):
     """Read a contacts table with all its columns."""
-    from branchcrush.tables import read_table
+    from branchcrush.files.tables import read_table
 
     read_table(path)
 
@@ -290,13 +290,13 @@ def judge_state(path, grains):
     import numpy as np
     import pandas as pd
 
-    from branchcrush.bins import bin_edges, binned_sums
-    from branchcrush.contact_law import LinearContact
-    from branchcrush.contacts import mechanical_coordination_number, rattlers
-    from branchcrush.energy_split import power_law_fit
-    from branchcrush.loading_path import law_error, path_row, state_contacts, wall_contacts
-    from branchcrush.packing import cube_edge
-    from branchcrush.tables import read_packing, read_table
+    from branchcrush.energy.split import power_law_fit
+    from branchcrush.files.tables import read_packing, read_table
+    from branchcrush.loading.states import law_error, path_row, state_contacts, wall_contacts
+    from branchcrush.packings.contact_laws import LinearContact
+    from branchcrush.packings.contacts import mechanical_coordination_number, rattlers
+    from branchcrush.packings.placement import cube_edge
+    from branchcrush.statistics.bins import bin_edges, binned_sums
 
     table = read_table(path)
     table = table[table["state"] == table["state"].iloc[-1]]

@@ -16,12 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.contact_law import contact_law
-from branchcrush.grading_files import grading_of
-from branchcrush.loading import strain_step
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compress, compression_variables
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.lammps.compression import compress, compression_variables
+from branchcrush.loading.targets import strain_step
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.packings.placement import cube_edge, random_packing
 
 ROOT = Path(__file__).resolve().parents[1]
 LOADING = {

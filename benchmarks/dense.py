@@ -8,16 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush import gradings
-from branchcrush.contact_law import contact_law
 from branchcrush.errors import SimulationError
-from branchcrush.lammps_files import read_dump, write_data_file
-from branchcrush.lammps_library import load_lammps
-from branchcrush.loading_path import force_floor
-from branchcrush.neighbours import neighbour_settings
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compress
+from branchcrush.gradings import curves as gradings
+from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.lammps.compression import compress
+from branchcrush.lammps.files import read_dump, write_data_file
+from branchcrush.lammps.library import load_lammps
+from branchcrush.lammps.neighbours import neighbour_settings
+from branchcrush.loading.states import force_floor
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.packings.placement import cube_edge, random_packing
 
 ROOT = Path(__file__).resolve().parents[1]
 INPUTS = ROOT / "lammps_inputs"
@@ -146,7 +146,7 @@ def evaluations_cost(positions, radii, edge, settings, evaluations, boundary, in
     positions, radii, edge
         Of a loaded packing [m].
     settings : dict
-        Variables of `in.compress`, as `branchcrush.neighbours.neighbour_settings`.
+        Variables of `in.compress`, as `branchcrush.lammps.neighbours.neighbour_settings`.
     evaluations : int
         Of the three steps together.
     boundary : {"periodic", "walls"}

@@ -18,9 +18,9 @@ from benchmarks.dense import (
     peak_bytes,
     replicated,
 )
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compress
+from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.lammps.compression import compress
+from branchcrush.packings.placement import cube_edge, random_packing
 
 LIMIT = 1.5
 LOADED = {"lognormal": 0.68}

@@ -7,15 +7,15 @@ code is believed about its own state.
 import numpy as np
 from scipy.spatial import cKDTree
 
-from branchcrush.contact_law import LinearContact
-from branchcrush.contacts import (
+from branchcrush.loading.states import force_floor
+from branchcrush.packings.contact_laws import LinearContact
+from branchcrush.packings.contacts import (
     coordination_number,
     mean_stress,
     mechanical_coordination_number,
     rattlers,
     unbalanced_force_ratio,
 )
-from branchcrush.loading_path import force_floor
 
 
 def state_of(positions, radii, edge, periodic, stiffness):

@@ -18,8 +18,8 @@ from benchmarks.dense import (
     replicated,
 )
 from benchmarks.paths import QUANTITIES, paper_compression, paper_packing, quantities
-from branchcrush.lammps_files import write_data_file
-from branchcrush.lammps_run import run_script
+from branchcrush.lammps.files import write_data_file
+from branchcrush.lammps.run import run_script
 
 LOADED = {"lognormal": 0.68}
 # `run_script` asks for these. The clock starts when the packing is read and set up.

@@ -1,4 +1,4 @@
-"""The choice of `branchcrush.neighbours` against a scan of styles, collections and skins."""
+"""The choice of `branchcrush.lammps.neighbours` against a scan of styles, collections and skins."""
 
 import json
 import sys
@@ -9,9 +9,9 @@ import numpy as np
 
 from benchmarks.dense import INPUTS, apart, costs_apart, dense_packing, packing_variables
 from branchcrush.errors import BranchcrushError
-from branchcrush.neighbours import neighbour_settings
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.simulation import compress
+from branchcrush.lammps.compression import compress
+from branchcrush.lammps.neighbours import neighbour_settings
+from branchcrush.packings.placement import cube_edge, random_packing
 
 LIMIT = 1.15
 LOADED = 0.72

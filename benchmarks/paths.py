@@ -13,17 +13,17 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.dense import INPUTS, STIFFNESS
-from branchcrush.bins import bin_edges, binned_sums
-from branchcrush.contact_law import contact_law
-from branchcrush.energy_split import binned_exponent
+from branchcrush.energy.split import binned_exponent
 from branchcrush.errors import BranchcrushError, FitError
-from branchcrush.gradings import uniform
-from branchcrush.jamming import jamming_point
-from branchcrush.loading import STEP_UNBALANCED_FORCE_RATIO, strain_step
-from branchcrush.loading_path import stress_floor
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compress, compression_variables
+from branchcrush.gradings.curves import uniform
+from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.lammps.compression import compress, compression_variables
+from branchcrush.loading.jamming import jamming_point
+from branchcrush.loading.states import stress_floor
+from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, strain_step
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.statistics.bins import bin_edges, binned_sums
 
 CORES = 2
 GRAINS, ENDS, LOOSE, EDGE_REDUCTION = 1000, (5e-6, 1e-3), 0.16, 0.4

@@ -2,8 +2,9 @@
 
 python branchcrush_compress.py case.json output.json
 
-The same case and the same output as the other drivers, through `branchcrush.simulation.compress`,
-as the workflow does it. Writes output.json and, beside it, output.npz with the last positions.
+The same case and the same output as the other drivers, through
+`branchcrush.lammps.compression.compress`, as the workflow does it. Writes output.json and, beside
+it, output.npz with the last positions.
 """
 
 import re
@@ -16,10 +17,10 @@ from pathlib import Path
 import numpy as np
 from common import final_state, read_case, volumes, write_result
 
-from branchcrush.contact_law import LinearContact
-from branchcrush.lammps_files import read_dump
-from branchcrush.loading import STEP_UNBALANCED_FORCE_RATIO
-from branchcrush.simulation import compress, compression_variables
+from branchcrush.lammps.compression import compress, compression_variables
+from branchcrush.lammps.files import read_dump
+from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
+from branchcrush.packings.contact_laws import LinearContact
 
 INPUTS = Path(__file__).resolve().parents[2] / "lammps_inputs"
 

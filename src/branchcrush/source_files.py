@@ -20,12 +20,12 @@ def imported_modules(path):
     Returns
     -------
     frozenset of str
-        Dotted names below the package, as "simulation" or "plotting.energy".
+        Dotted names below the package, as "errors" or "plotting.energy".
 
     Examples
     --------
-    >>> sorted(imported_modules(Path(__file__).with_name("packing.py")))
-    ['cell_grid', 'errors']
+    >>> sorted(imported_modules(Path(__file__).with_name("packings") / "placement.py"))
+    ['errors', 'packings.cell_grid']
     """
     found = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
@@ -53,8 +53,9 @@ def source_files(path):
 
     Examples
     --------
-    >>> [Path(file).name for file in source_files(Path(__file__).with_name("packing.py"))]
-    ['cell_grid.py', 'errors.py']
+    >>> placement = Path(__file__).with_name("packings") / "placement.py"
+    >>> [Path(file).name for file in source_files(placement)]
+    ['errors.py', 'cell_grid.py']
     """
     pending, seen = list(imported_modules(path)), set()
     while pending:

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush.contact_law import HertzContact, LinearContact
-from branchcrush.loading_path import force_floor
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.simulation import compress
+from branchcrush.lammps.compression import compress
+from branchcrush.loading.states import force_floor
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.packings.placement import cube_edge, random_packing
 
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 LAWS = {"linear": LinearContact, "hertz": HertzContact}

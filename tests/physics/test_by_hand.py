@@ -10,12 +10,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush.contact_law import HertzContact, LinearContact
-from branchcrush.lammps_files import write_data_file
-from branchcrush.lammps_run import declared_variables
-from branchcrush.loading_path import cube
-from branchcrush.packing import random_packing
-from branchcrush.simulation import compression_variables
+from branchcrush.lammps.compression import compression_variables
+from branchcrush.lammps.files import write_data_file
+from branchcrush.lammps.run import declared_variables
+from branchcrush.loading.states import cube
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.packings.placement import random_packing
 
 DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 

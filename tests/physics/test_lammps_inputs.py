@@ -10,8 +10,8 @@ import zlib
 import pandas as pd
 import pytest
 
-from branchcrush.lammps_run import declared_variables
-from branchcrush.tables import write_packing
+from branchcrush.files.tables import write_packing
+from branchcrush.lammps.run import declared_variables
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from branchcrush.packing import cube_edge, random_packing
+from branchcrush.packings.placement import cube_edge, random_packing
 
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 RATIO, SMALL = 6.0, 450

@@ -5,12 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from branchcrush.contact_law import LinearContact
 from branchcrush.errors import SimulationError
-from branchcrush.loading_path import force_floor
-from branchcrush.neighbours import neighbour_settings
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.simulation import compress
+from branchcrush.lammps.compression import compress
+from branchcrush.lammps.neighbours import neighbour_settings
+from branchcrush.loading.states import force_floor
+from branchcrush.packings.contact_laws import LinearContact
+from branchcrush.packings.placement import cube_edge, random_packing
 
 LOADING = {"strain_step": 8e-3, "approach_steps": 10}
 
@@ -106,7 +106,7 @@ def test_an_mpiexec_of_another_mpi_is_told(tmp_path, lammps_inputs, monkeypatch)
     other = tmp_path / "mpiexec"
     other.write_text('#!/bin/sh\nshift 2\n"$@"\n')
     other.chmod(0o755)
-    monkeypatch.setattr("branchcrush.lammps_run._launcher", lambda: str(other))
+    monkeypatch.setattr("branchcrush.lammps.run._launcher", lambda: str(other))
     with pytest.raises(SimulationError, match="this mpiexec gives LAMMPS a world of 1"):
         loaded(np.full(30, 1e-3), tmp_path / "run", lammps_inputs, boundary="walls", ranks=2)
 

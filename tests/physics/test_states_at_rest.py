@@ -9,7 +9,7 @@ import itertools
 import numpy as np
 import pytest
 
-from branchcrush.loading import STEP_FORCE_EVALUATIONS
+from branchcrush.loading.targets import STEP_FORCE_EVALUATIONS
 
 GRAINS = 120
 STATES = 10

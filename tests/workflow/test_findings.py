@@ -5,7 +5,7 @@ import re
 import pytest
 from matplotlib import image
 
-from branchcrush.tables import read_json, read_table
+from branchcrush.files.tables import read_json, read_table
 
 FINDINGS = ("exponents", "lengths", "energies", "coordination", "shielding", "forces")
 PREDICTORS = ["branch_length", "reduced_radius", "both_radii", "grain_size", "surface"]

@@ -5,8 +5,8 @@ import re
 import pytest
 from matplotlib import image
 
-from branchcrush.summary import summary
-from branchcrush.tables import read_json, read_table
+from branchcrush.files.tables import read_json, read_table
+from branchcrush.study.summary import summary
 
 NO_DATA = """\
 samples:

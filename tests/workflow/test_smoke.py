@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 from matplotlib import image
 
-from branchcrush.summary import summary
-from branchcrush.tables import read_json, read_packing, read_table
+from branchcrush.files.tables import read_json, read_packing, read_table
+from branchcrush.study.summary import summary
 
 SEEDS = (3, 5)
 FIGURES = (

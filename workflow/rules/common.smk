@@ -1,7 +1,7 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
-from branchcrush.config import REFINED
-from branchcrush.config_gradings import grading_data_files
+from branchcrush.config.schema import REFINED
+from branchcrush.config.gradings import grading_data_files
 from branchcrush.source_files import source_files
 
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}

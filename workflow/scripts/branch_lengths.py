@@ -1,15 +1,13 @@
 """Measure who touches whom along the loading, and the branch lengths, beside what is predicted."""
 
-from branchcrush.bins import bin_edges
-from branchcrush.branch_lengths import branch_length_table, branch_statistics
-from branchcrush.ensemble import certified_loading, mean_path
+from branchcrush.branches.lengths import branch_length_table, branch_statistics
+from branchcrush.branches.predictions import binned_predictions, fine_edges, predictions
 from branchcrush.errors import FitError
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.seeds import read_contacts
+from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
 from branchcrush.jobs import job
-from branchcrush.length_predictions import binned_predictions, fine_edges, predictions
-from branchcrush.seed_files import read_contacts
-from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
-from branchcrush.touching import (
+from branchcrush.samples.branch_lengths import (
     contact_number_rows,
     coordination_table,
     length_prediction_rows,
@@ -17,6 +15,8 @@ from branchcrush.touching import (
     seed_contacts,
     touching_summary,
 )
+from branchcrush.samples.ensemble import certified_loading, mean_path
+from branchcrush.statistics.bins import bin_edges
 
 with job(snakemake.log[0]):
     files, params = snakemake.input, snakemake.params

@@ -1,10 +1,10 @@
 """Judge every saved state, and find the jamming point of every packing."""
 
-from branchcrush.certificate import jamming_points, state_certificates
-from branchcrush.contact_law import contact_law
+from branchcrush.files.tables import provenance, read_packing, read_table, write_table
 from branchcrush.jobs import job
-from branchcrush.loading_path import stress_floor
-from branchcrush.tables import provenance, read_packing, read_table, write_table
+from branchcrush.loading.states import stress_floor
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.samples.certificate import jamming_points, state_certificates
 
 with job(snakemake.log[0]):
     sample, files = snakemake.params.sample, snakemake.input

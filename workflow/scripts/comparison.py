@@ -1,8 +1,8 @@
 """Put the samples beside each other, a row each."""
 
+from branchcrush.files.tables import provenance, read_json, write_table
 from branchcrush.jobs import job
-from branchcrush.report import comparison_row
-from branchcrush.tables import provenance, read_json, write_table
+from branchcrush.study.pages import comparison_row
 
 with job(snakemake.log[0]):
     kinds = (snakemake.input.fits, snakemake.input.summaries, snakemake.input.certificates)

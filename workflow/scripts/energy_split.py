@@ -1,18 +1,18 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
-from branchcrush.bins import bin_edges
-from branchcrush.branches import (
+from branchcrush.errors import FitError
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
+from branchcrush.jobs import job
+from branchcrush.samples.energy_split import (
     COLUMNS,
     end_state,
     exponents_along_path,
     final_energy_split,
     seed_branches,
 )
-from branchcrush.ensemble import certified_loading
-from branchcrush.errors import FitError
-from branchcrush.grading_files import grading_of
-from branchcrush.jobs import job
-from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
+from branchcrush.samples.ensemble import certified_loading
+from branchcrush.statistics.bins import bin_edges
 
 with job(snakemake.log[0]):
     files, sample = snakemake.input, snakemake.params.sample

@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from branchcrush.exponent_paths import common_distance
-from branchcrush.findings import finding_row
+from branchcrush.files.tables import provenance, read_json, read_table, write_table
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_json, read_table, write_table
+from branchcrush.study.exponents import common_distance
+from branchcrush.study.findings import finding_row
 
 with job(snakemake.log[0]):
     files, samples = snakemake.input, snakemake.params.samples

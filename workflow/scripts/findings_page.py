@@ -2,13 +2,13 @@
 
 from pathlib import Path
 
-from branchcrush.findings import GOOD_DISTANCE, verdicts
+from branchcrush.files.tables import read_table, write_text
 from branchcrush.jobs import job
-from branchcrush.plotting import samples as plots
-from branchcrush.plotting import samples_networks as networks
+from branchcrush.plotting import study as plots
+from branchcrush.plotting import study_networks as networks
 from branchcrush.plotting.style import SIZE, figure, reason
-from branchcrush.report import render_findings
-from branchcrush.tables import read_table, write_text
+from branchcrush.study.findings import GOOD_DISTANCE, verdicts
+from branchcrush.study.pages import render_findings
 
 with job(snakemake.log[0]):
     files, output, samples = snakemake.input, snakemake.output, snakemake.params.samples

@@ -1,10 +1,11 @@
 """Draw what is fitted to a sample: the energy split, branch lengths, and the crushing model."""
 
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
-from branchcrush.plotting import crushing, distributions, energy, predictors
+from branchcrush.plotting import crushing, energy, predictors
+from branchcrush.plotting import gradings as distributions
 from branchcrush.plotting.style import SIZE, drawn, figure
-from branchcrush.tables import read_json, read_table
 
 with job(snakemake.log[0]):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi

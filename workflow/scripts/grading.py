@@ -1,11 +1,11 @@
 """Write the target grading beside what the seeds realise, and how well they stand for it."""
 
-from branchcrush.grading_files import grading_of
-from branchcrush.gradings import grading_table, ultimate_grading
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import provenance, read_packing, write_json, write_table
+from branchcrush.gradings.curves import grading_table, ultimate_grading
+from branchcrush.gradings.representativity import representativity, representativity_report
 from branchcrush.jobs import job
-from branchcrush.loading import loaded_solid_fraction
-from branchcrush.representativity import representativity, representativity_report
-from branchcrush.tables import provenance, read_packing, write_json, write_table
+from branchcrush.loading.targets import loaded_solid_fraction
 
 with job(snakemake.log[0]):
     sample = snakemake.params.sample

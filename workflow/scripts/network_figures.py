@@ -1,10 +1,12 @@
 """Draw the contact network of a sample: who touches whom, and who carries what."""
 
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
-from branchcrush.plotting import forces, sharing, touching
+from branchcrush.plotting import branches as touching
+from branchcrush.plotting import forces
+from branchcrush.plotting import shielding as sharing
 from branchcrush.plotting.style import SIZE, drawn, figure
-from branchcrush.tables import read_json, read_table
 
 with job(snakemake.log[0]):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi

@@ -4,15 +4,16 @@ from itertools import islice
 
 import numpy as np
 
-from branchcrush.certificate import OVERLAP_FLAG
-from branchcrush.ensemble import end_of_loading, stacked
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.jobs import job
-from branchcrush.lammps_files import read_dump
-from branchcrush.plotting import certificate, distributions, loading
-from branchcrush.plotting.spheres import plot_packing
+from branchcrush.lammps.files import read_dump
+from branchcrush.plotting import certificate, loading
+from branchcrush.plotting import gradings as distributions
+from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import SIZE, drawn, figure
-from branchcrush.tables import read_json, read_packing, read_table
+from branchcrush.samples.certificate import OVERLAP_FLAG
+from branchcrush.samples.ensemble import end_of_loading, stacked
 
 WIDE, SQUARE = (2 * SIZE[0], SIZE[1]), (2 * SIZE[0], 2 * SIZE[1])
 

@@ -4,18 +4,18 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.contact_law import contact_law
-from branchcrush.grading_files import grading_of
-from branchcrush.gradings import grading_table, ultimate_grading
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import write_text
+from branchcrush.gradings.curves import grading_table, ultimate_grading
+from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.jobs import job
-from branchcrush.lammps_run import declared_variables
-from branchcrush.packing import cube_edge, random_packing
-from branchcrush.plotting.distributions import plot_grading
+from branchcrush.lammps.compression import compression_variables, trial
+from branchcrush.lammps.run import declared_variables
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.plotting.gradings import plot_grading
 from branchcrush.plotting.style import figure
-from branchcrush.preview import preview_text, sample_plan
-from branchcrush.sampling import sampled_radii
-from branchcrush.simulation import compression_variables, trial
-from branchcrush.tables import write_text
+from branchcrush.study.preview import preview_text, sample_plan
 
 # A trial of more grains would take longer than it tells.
 _MOST_GRAINS = 1000

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from branchcrush.files.tables import read_json, write_text
 from branchcrush.jobs import job
-from branchcrush.report import render_report
-from branchcrush.tables import read_json, write_text
+from branchcrush.study.pages import render_report
 
 with job(snakemake.log[0]):
     samples, files = snakemake.params.samples, snakemake.input

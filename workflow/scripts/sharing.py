@@ -2,19 +2,19 @@
 
 from itertools import islice
 
-from branchcrush.bins import bin_edges
-from branchcrush.contact_law import contact_law
-from branchcrush.ensemble import certified_loading
 from branchcrush.errors import FitError
-from branchcrush.fabric import branch_vectors
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.seeds import read_contacts
+from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
+from branchcrush.forces.fabric import branch_vectors
 from branchcrush.jobs import job
-from branchcrush.lammps_files import read_dump
-from branchcrush.networks import state_network
-from branchcrush.seed_files import read_contacts
-from branchcrush.sharing import TABLES, both_states, shared_in_state
-from branchcrush.tables import no_data, provenance, read_table, write_json, write_table
-from branchcrush.touching import sample_classes
+from branchcrush.lammps.files import read_dump
+from branchcrush.packings.contact_laws import contact_law
+from branchcrush.packings.network import state_network
+from branchcrush.samples.branch_lengths import sample_classes
+from branchcrush.samples.ensemble import certified_loading
+from branchcrush.samples.sharing import TABLES, both_states, shared_in_state
+from branchcrush.statistics.bins import bin_edges
 
 
 def vectors_in(dump, states):

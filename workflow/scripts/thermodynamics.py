@@ -1,13 +1,20 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
-from branchcrush.crushing_curves import crushing_curves
-from branchcrush.ensemble import certified_loading, on_the_way_in
 from branchcrush.errors import AdmissibilityError, FitError
-from branchcrush.grading_files import grading_of
-from branchcrush.gradings import ultimate_grading
-from branchcrush.intervals import Interval
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import (
+    no_data,
+    provenance,
+    read_json,
+    read_table,
+    write_json,
+    write_table,
+)
+from branchcrush.gradings.curves import ultimate_grading
 from branchcrush.jobs import job
-from branchcrush.tables import no_data, provenance, read_json, read_table, write_json, write_table
+from branchcrush.samples.ensemble import certified_loading, on_the_way_in
+from branchcrush.samples.thermodynamics import crushing_curves
+from branchcrush.statistics.intervals import Interval
 
 with job(snakemake.log[0]):
     files, model = snakemake.input, snakemake.params.thermodynamics

@@ -1,14 +1,14 @@
 """Compare the first seeds with themselves at twice the strain steps, and judge the sample."""
 
-from branchcrush.bins import bin_edges
-from branchcrush.branches import ENERGY_COLUMNS, state_sums
-from branchcrush.certificate import sample_certificate
-from branchcrush.convergence import convergence_table
-from branchcrush.ensemble import end_of_loading
-from branchcrush.grading_files import grading_of
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.files.tables import provenance, read_json, read_table, write_json, write_table
 from branchcrush.jobs import job
-from branchcrush.tables import provenance, read_json, read_table, write_json, write_table
-from branchcrush.unloading import unloading_summary
+from branchcrush.samples.certificate import sample_certificate
+from branchcrush.samples.convergence import convergence_table
+from branchcrush.samples.energy_split import ENERGY_COLUMNS, state_sums
+from branchcrush.samples.ensemble import end_of_loading
+from branchcrush.samples.unloading import unloading_summary
+from branchcrush.statistics.bins import bin_edges
 
 with job(snakemake.log[0]):
     sample, files = snakemake.params.sample, snakemake.input

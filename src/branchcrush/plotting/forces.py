@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.fabric import chance_range
+from branchcrush.forces.fabric import chance_range
 from branchcrush.plotting.style import FAINT, STATES, axes
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}

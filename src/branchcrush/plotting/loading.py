@@ -11,7 +11,7 @@ def plot_mean_stress(path, ax=None):
     Parameters
     ----------
     path : DataFrame
-        From `ensemble.stacked`.
+        From `samples.ensemble.stacked`.
     ax : Axes, optional
 
     Returns
@@ -35,7 +35,7 @@ def plot_energy_balance(path, ax=None):
     Parameters
     ----------
     path : DataFrame
-        From `ensemble.stacked`.
+        From `samples.ensemble.stacked`.
     ax : Axes, optional
 
     Returns
@@ -63,7 +63,7 @@ def plot_coordination(path, ax=None):
     Parameters
     ----------
     path : DataFrame
-        From `ensemble.stacked`.
+        From `samples.ensemble.stacked`.
     ax : Axes, optional
 
     Returns
@@ -98,7 +98,7 @@ def plot_elastic_law(path, summary, ax=None):
     Parameters
     ----------
     path : DataFrame
-        From `ensemble.stacked`.
+        From `samples.ensemble.stacked`.
     summary : dict
         `thermodynamics.json`.
     ax : Axes, optional

@@ -1,0 +1,296 @@
+"""Predicted distributions of branch length, and how far each is from the measured one.
+
+In all of them but Eq. 4 two grains touch by their contact numbers: Q(R) = c(R) P(R)/kappa.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from branchcrush.branches.coordination_models import MODELS
+from branchcrush.branches.lengths import random_contact_shares
+from branchcrush.errors import FitError
+
+# Cells that a grading is cut into, by number and as many by mass.
+_CELLS = 200
+# Single radii of a grading that are kept as they are.
+_SINGLE = 100
+# A prime: no sum of two radii that are simple fractions of each other lies on an edge.
+_BINS = 997
+# A mode is where most branches are within this share of the whole range.
+_MODE_WINDOW = 0.1
+
+
+class Prediction(NamedTuple):
+    """What a model says of a grading."""
+
+    shares: np.ndarray  # of the branches in each bin of length [-]
+    radius: np.ndarray  # nodes of the grading, shape (K,) [m]; empty for Eq. 4
+    share: np.ndarray  # their share of the grains [-]
+    contacts: np.ndarray  # c(R) at the nodes [-]
+    load_bearing: np.ndarray  # share of the grains of each node [-]
+
+
+def fine_edges(radius_min, radius_max):
+    """Return the edges of narrow bins of branch length, in which distributions are compared.
+
+    Parameters
+    ----------
+    radius_min, radius_max : float
+        [m]
+
+    Returns
+    -------
+    ndarray, shape (998,)
+        [m]; a little beyond both ends, so that no branch lies on one.
+
+    Examples
+    --------
+    >>> edges = fine_edges(1.0, 2.0)
+    >>> bool(edges[0] < 2.0 and edges[-1] > 4.0)
+    True
+    """
+    margin = 1e-3 * radius_max
+    return np.linspace(2.0 * radius_min - margin, 2.0 * radius_max + margin, _BINS + 1)
+
+
+def grading_nodes(grading):
+    """Return radii that stand for a grading, and their shares of the number of grains.
+
+    Parameters
+    ----------
+    grading : Grading
+
+    Returns
+    -------
+    radius, share : ndarray, shape (K,)
+        [m], [-]. The coarse grains, few by number, have as many nodes as the fine ones.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.curves import single, uniform
+    >>> [part.tolist() for part in grading_nodes(single(1.0))]
+    [[1.0], [1.0]]
+    >>> radius, share = grading_nodes(uniform(1.0, 3.0))
+    >>> round(float(share @ radius), 4), round(float(share.sum()), 9)
+    (2.0, 1.0)
+    """
+    single, single_share = grading.discrete_part
+    if single.size > _SINGLE:
+        single, single_share = single[:0], single_share[:0]
+    elif grading.is_discrete:
+        return single, single_share
+    levels = np.linspace(0.0, 1.0, _CELLS + 1)[1:-1]
+    quantiles = np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)])
+    inner, times = np.unique(quantiles, return_counts=True)
+    # The last of these nodes are single radii, which are cut into cells only when they are many.
+    nodes, weight = grading.quadrature(breaks=inner)
+    cut = nodes.size - single.size
+    # One that is more than a cell by itself has its own, without the fines that it outweighs.
+    ends = np.union1d(inner, np.nextafter(inner[times > 1], 0.0))
+    cell = np.searchsorted(ends, nodes[:cut])
+    share, sums = (np.bincount(cell, w) for w in (weight[:cut], weight[:cut] * nodes[:cut]))
+    kept = share > 1e-15
+    # Means, not middles: the last cell of a long tail reaches far beyond the grains in it.
+    radius = np.append(sums[kept] / share[kept], single)
+    share = np.append(share[kept], single_share)
+    return radius, share / share.sum()
+
+
+def pair_shares(radius, touched, edges):
+    r"""Return the shares of branch lengths when ends are drawn independently, by their contacts.
+
+    .. math:: B(l) = \int Q(R)\, Q(l - R)\, dR
+
+    Parameters
+    ----------
+    radius : array_like, shape (K,)
+        [m]
+    touched : array_like, shape (K,)
+        Contacts that grains of this radius have, Q of any scale.
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        [-]
+
+    Examples
+    --------
+    >>> pair_shares(np.array([1.0, 2.0]), np.array([1.0, 3.0]), [1.5, 2.5, 3.5, 4.5]).tolist()
+    [0.0625, 0.375, 0.5625]
+    """
+    ends = np.asarray(touched) / np.sum(touched)
+    length = radius[:, None] + radius
+    return np.histogram(length.ravel(), edges, weights=np.outer(ends, ends).ravel())[0]
+
+
+def predictions(grading, edges):
+    """Return what Eq. 4 and every model of contact numbers say of a grading.
+
+    Parameters
+    ----------
+    grading : Grading
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    dict of Prediction
+        `random_contact` (Eq. 4), then those of `branches.coordination_models.MODELS`; a model that
+        does not hold for the grading is left out.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.curves import uniform
+    >>> edges = np.array([2.0, 3.0, 4.0])
+    >>> for name, prediction in predictions(uniform(1.0, 2.0), edges).items():
+    ...     print(name, prediction.shares.round(2))
+    random_contact [0.5 0.5]
+    mean_neighbour [0.38 0.62]
+    surface [0.39 0.61]
+    self_consistent [0.38 0.62]
+    parking [0.35 0.65]
+    """
+    nothing = np.empty(0)
+    shares = random_contact_shares(grading, edges)
+    found = {"random_contact": Prediction(shares, nothing, nothing, nothing, nothing)}
+    radius, share = grading_nodes(grading)
+    for name, model in MODELS.items():
+        try:
+            contacts, bearing = model(radius, share)
+        except FitError:
+            continue
+        shares = pair_shares(radius, share * contacts, edges)
+        found[name] = Prediction(shares, radius, share, contacts, bearing)
+    return found
+
+
+def binned_predictions(models, edges):
+    """Return the shares of the branches by the models of contact numbers in other bins.
+
+    Parameters
+    ----------
+    models : dict of Prediction
+        From `predictions`.
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    dict of ndarray, shape (n,)
+        [-]; without Eq. 4, which has no contact numbers.
+    """
+    return {
+        name: pair_shares(model.radius, model.share * model.contacts, edges)
+        for name, model in models.items()
+        if model.radius.size
+    }
+
+
+def lumped(radius, contacts, cells=2 * _CELLS):
+    """Return grains in groups of nearly one radius: mean radius, and contacts of all of the group.
+
+    Parameters
+    ----------
+    radius, contacts : array_like, shape (N,)
+        Of each grain [m], [-].
+    cells : int
+        Groups at most.
+
+    Returns
+    -------
+    radius, touched : ndarray, shape (K,)
+        [m], [-]
+
+    Examples
+    --------
+    >>> [part.tolist() for part in lumped([1.0, 2.0, 1.0], [3, 9, 5])]
+    [[1.0, 2.0], [8.0, 9.0]]
+    """
+    radius, contacts = np.asarray(radius, dtype=float), np.asarray(contacts, dtype=float)
+    values, group = np.unique(radius, return_inverse=True)
+    if values.size > cells:
+        # As many grains and contacts in each: the few that most branches end at are told apart.
+        order = np.argsort(radius, kind="stable")
+        weight = np.cumsum(1.0 / radius.size + contacts[order] / max(contacts.sum(), 1.0))
+        group = np.empty(radius.size, dtype=int)
+        group[order] = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
+        _, group = np.unique(group, return_inverse=True)
+    number = np.bincount(group)
+    return np.bincount(group, radius) / number, np.bincount(group, contacts)
+
+
+def distances(counts, shares, edges):
+    r"""Return how far a predicted distribution of branch length is from the measured one.
+
+    .. math:: D = \max_l |F(l) - \hat F(l)|
+
+    Parameters
+    ----------
+    counts : array_like, shape (n,)
+        Branches measured in narrow bins.
+    shares : array_like, shape (n,)
+        Predicted [-].
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    dict
+        kolmogorov_smirnov [-]; mean_length_m and mode_length_m of the prediction.
+
+    Examples
+    --------
+    >>> distances([2, 2], [0.25, 0.75], np.array([1.0, 2.0, 3.0]))["kolmogorov_smirnov"]
+    0.25
+    """
+    measured = np.cumsum(counts) / np.sum(counts)
+    predicted = np.cumsum(shares) / np.sum(shares)
+    return {
+        "kolmogorov_smirnov": float(np.abs(measured - predicted).max()),
+        "mean_length_m": mean_length(shares, edges),
+        "mode_length_m": mode_length(shares, edges),
+    }
+
+
+def mean_length(shares, edges):
+    """Return the mean branch length of a distribution in narrow bins [m].
+
+    Examples
+    --------
+    >>> mean_length([1, 3], np.array([1.0, 2.0, 3.0]))
+    2.25
+    """
+    return float(np.average((edges[:-1] + edges[1:]) / 2.0, weights=shares))
+
+
+def mode_length(shares, edges):
+    """Return the middle of the tenth of the range in which most branches are [m].
+
+    Single narrow bins are too noisy to tell.
+
+    Parameters
+    ----------
+    shares : array_like, shape (n,)
+        Counts or shares of the branches in narrow bins.
+    edges : array_like, shape (n+1,)
+        Bin edges, evenly spaced [m].
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> round(mode_length(np.exp(-np.linspace(-3.0, 2.0, 500) ** 2), np.linspace(0, 5, 501)), 1)
+    3.0
+    """
+    below = np.append(0.0, np.cumsum(shares))
+    width = max(round(_MODE_WINDOW * len(shares)), 1)
+    inside = below[width:] - below[:-width]
+    # The middle of all that hold the most: single lengths give a plateau.
+    most = np.flatnonzero(inside >= inside.max() * (1.0 - 1e-12))
+    first = most[: np.flatnonzero(np.diff(np.append(most, most[-1] + 2)) > 1)[0] + 1].mean()
+    return float(np.interp(first + width / 2.0, np.arange(len(edges)), edges))

@@ -1,0 +1,204 @@
+"""What a configuration asks of grains, files and folders: checked before any job starts."""
+
+import os
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from branchcrush.config.fields import one_line
+from branchcrush.config.gradings import GradingSection
+from branchcrush.config.messages import shown
+from branchcrush.config.schema import REFINED, Sample, checked_config
+from branchcrush.errors import ConfigError, GradingError
+from branchcrush.files.grading_tables import grading_of
+from branchcrush.gradings.representativity import representativity
+from branchcrush.loading.targets import expected_overlap_ratio, loaded_solid_fraction
+from branchcrush.packings.contact_laws import contact_law
+
+# Grains pressed together by half their radius are no spheres in contact any more.
+_DEEPEST_OVERLAP = 0.5
+# What the checks below ask for; a mistake in another key keeps none of them back.
+_NEEDED = (
+    "grading",
+    "grains",
+    "allow_unrepresentative",
+    "initial_solid_fraction",
+    "contact",
+    "loading",
+)
+
+
+def checked_study(raw, folder="."):
+    """Return the configuration, sound in itself and in what it asks of files and folder.
+
+    Parameters
+    ----------
+    raw : dict
+        What the YAML file holds.
+    folder : path-like
+        Where results will go.
+
+    Returns
+    -------
+    Config
+
+    Raises
+    ------
+    ConfigError
+        With one line for each problem, all of them at once.
+    """
+    problems, config = [], None
+    try:
+        config = checked_config(raw)
+    except ConfigError as error:
+        problems += str(error).splitlines()
+    samples = raw.get("samples") if isinstance(raw, dict) else None
+    samples = samples if isinstance(samples, dict) else {}
+    for name, section in samples.items():
+        problems += [
+            f"config: samples.{one_line(name)}.{line}" for line in sample_problems(section)
+        ]
+    # A name that is none of a folder was refused as such.
+    names = [name for name in samples if isinstance(name, str) and Path(name).name == name]
+    problems += [f"config: {line}" for line in _folder_problems(Path(folder), names)]
+    if problems:
+        raise ConfigError("\n".join(problems))
+    return config
+
+
+def sample_problems(section):
+    """Return what is wrong with a sample that its keys alone do not tell, a line each.
+
+    Parameters
+    ----------
+    section : dict
+        Of the YAML file; a part that is not valid in itself is passed over.
+
+    Returns
+    -------
+    list of str
+    """
+    if not isinstance(section, dict):
+        return []
+    grading, problems = _grading(section.get("grading"))
+    if grading is None:
+        return problems
+    try:
+        needed = {key: section[key] for key in _NEEDED if key in section}
+        sample = Sample.model_validate({**needed, "seeds": 1})
+    except ValidationError:
+        return []
+    end = loaded_solid_fraction(sample.initial_solid_fraction, sample.loading.plain())
+    standing = representativity(grading, sample.grains, end)
+    if standing.verdict == "refuse" and not sample.allow_unrepresentative:
+        problems.append(
+            f"grains = {sample.grains}: {standing.message}; or set allow_unrepresentative: true, "
+            "which the report will repeat"
+        )
+    if standing.box_edge < standing.expected_largest_diameter:
+        problems.append(
+            f"grains = {sample.grains}: the cell would end at an edge of {standing.box_edge:.3g} "
+            f"m, smaller than the largest grain of {standing.expected_largest_diameter:.3g} m: use "
+            "more grains or load less"
+        )
+    target, value = sample.loading.target
+    if target == "mean_stress":
+        law = contact_law(**sample.contact.model_dump())
+        radius = float(grading.mass_ppf(0.5))
+        overlap = expected_overlap_ratio(value[-1], radius, law)
+        if overlap > _DEEPEST_OVERLAP:
+            problems.append(
+                f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
+                f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
+                f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
+            )
+    return problems
+
+
+def _grading(raw):
+    """Return the grading of a section, or None, and what is wrong with its files."""
+    try:
+        section = TypeAdapter(GradingSection).validate_python(raw).model_dump(exclude_none=True)
+    except ValidationError:
+        return None, _unread_files(raw)
+    problems = _file_problems(section)
+    if problems:
+        return None, problems
+    try:
+        return grading_of(section), []
+    except GradingError as error:
+        return None, [f"grading: {line}" for line in str(error).splitlines()]
+
+
+def _file_problems(section, key="grading"):
+    """Return what is wrong with the files of a section, or of each part of a mixture."""
+    if section["form"] == "mixture":
+        parts = enumerate(section["components"])
+        return [
+            problem
+            for place, part in parts
+            for problem in _file_problems(part["grading"], f"{key}.components.{place}.grading")
+        ]
+    if "file" not in section:
+        return []
+    if problems := _unread_file(section["file"], key):
+        return problems
+    try:
+        grading_of(section)
+    except GradingError as error:
+        return [f"{key}.file: {line}" for line in str(error).splitlines()]
+    return []
+
+
+def _unread_files(raw, key="grading"):
+    """Return which files are not there, of a section with other mistakes."""
+    if not isinstance(raw, dict):
+        return []
+    parts = raw.get("components")
+    problems = [
+        problem
+        for place, part in enumerate(parts if isinstance(parts, list) else [])
+        if isinstance(part, dict)
+        for problem in _unread_files(part.get("grading"), f"{key}.components.{place}.grading")
+    ]
+    return problems + _unread_file(raw.get("file"), key)
+
+
+def _unread_file(name, key):
+    """Return what keeps a file from being read, before anything is."""
+    if not isinstance(name, str) or not name:
+        return []
+    path = Path(name)
+    try:
+        if path.is_dir():
+            what = "is a folder; give the name of a file in it"
+        elif not path.exists():
+            what = f"there is no such file in {Path.cwd()}; names are relative to that folder"
+        elif not path.is_file():
+            what = "is no regular file; give the name of a text file"
+        elif not os.access(path, os.R_OK):
+            what = "cannot be read: change its permissions"
+        else:
+            return []
+    except (OSError, ValueError):  # of a name that no file can have
+        what = "is no name of a file"
+    return [f"{key}.file = {shown(name)}: {what}"]
+
+
+def _folder_problems(folder, samples):
+    """Return which folders of results cannot be written to."""
+    below = [Path("results"), Path("logs"), Path("results/figures")]
+    for name in samples:
+        below += [Path("results", name), Path("results", name + REFINED), Path("logs", name)]
+        below += [Path("results/figures", name)]
+    for path in below:
+        whole = folder / path
+        try:
+            if whole.exists() and not whole.is_dir():
+                yield f"{path} is a file, and results need a folder there: move it"
+            elif whole.is_dir() and not os.access(whole, os.W_OK):
+                yield f"{path} cannot be written to: change its permissions"
+        except OSError:  # of a name too long, which was refused as such
+            continue
+    if not os.access(folder, os.W_OK):
+        yield f"the folder {folder.resolve()} cannot be written to: run in one of your own"

@@ -1,0 +1,245 @@
+"""The configuration of a grading: one section for each form, each with its size, unit and basis."""
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field, field_validator
+
+from branchcrush.config.fields import Positive, Section, number, refusal
+from branchcrush.files.grading_tables import UNITS
+
+# Of a grain [m]. Outside of them it is the unit that is wrong.
+_SMALLEST, _LARGEST = 1e-9, 1e3
+
+
+def _possible(size, info):
+    unit = info.data.get("unit")
+    if unit and not _SMALLEST <= size * UNITS[unit] <= _LARGEST:
+        raise refusal(
+            f"must be from {_SMALLEST:g} m to {_LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
+            "check it and the unit",
+            unit=unit,
+        )
+    return size
+
+
+Length = number(above=0, unit_of="unit")
+Size = Annotated[Length, AfterValidator(_possible)]
+
+
+class _Sizes(Section):
+    # Never guessed: either slip is a factor 2, or 1000, in every size.
+    size: Literal["radius", "diameter"]
+    unit: Literal["m", "mm", "um"]
+
+
+class _Range(_Sizes):
+    min: Size
+    max: Size
+
+    @field_validator("max")
+    @classmethod
+    def _ordered(cls, largest, info):
+        return _above_min(largest, info.data)
+
+
+class UniformGrading(_Range):
+    """The same density at every size."""
+
+    form: Literal["uniform"]
+    basis: Literal["number", "mass"]
+
+
+class LoguniformGrading(_Range):
+    """Uniform in the logarithm of size."""
+
+    form: Literal["loguniform"]
+    basis: Literal["number", "mass"]
+
+
+class NormalGrading(_Range):
+    """The normal distribution of size, cut at min and max."""
+
+    form: Literal["normal"]
+    basis: Literal["number", "mass"]
+    mean: Length
+    standard_deviation: Length
+
+    @field_validator("standard_deviation")
+    @classmethod
+    def _within(cls, width, info):
+        unit = info.data.get("unit", "")
+        _check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
+        return width
+
+
+class LognormalGrading(_Range):
+    """The normal distribution of the logarithm of size, cut at min and max."""
+
+    form: Literal["lognormal"]
+    basis: Literal["number", "mass"]
+    median: Length
+    geometric_standard_deviation: number(above=1, most=1000)
+
+    @field_validator("geometric_standard_deviation")
+    @classmethod
+    def _within(cls, width, info):
+        s = math.log(width)
+        _check_share("lognorm", info.data, "median", lambda median: {"s": s, "scale": median})
+        return width
+
+
+class WeibullGrading(_Range):
+    """The Weibull distribution, by mass that of Rosin and Rammler, cut at min and max."""
+
+    form: Literal["weibull"]
+    basis: Literal["number", "mass"]
+    scale: Length
+    shape: number(above=0, most=1000)
+
+    @field_validator("shape")
+    @classmethod
+    def _within(cls, shape, info):
+        _check_share("weibull_min", info.data, "scale", lambda scale: {"c": shape, "scale": scale})
+        return shape
+
+
+class FractalGrading(_Range):
+    """Number density ~ R^-(1+alpha)."""
+
+    form: Literal["fractal"]
+    basis: Literal["number"]
+    alpha: number(above=0, most=6)
+
+
+class FullerGrading(_Range):
+    """Mass finer ~ D^exponent - D_min^exponent."""
+
+    form: Literal["fuller"]
+    basis: Literal["mass"]
+    exponent: number(above=0, most=6)
+
+
+class SingleGrading(_Sizes):
+    """One size."""
+
+    form: Literal["single"]
+    value: Size
+
+
+class _Table(_Sizes):
+    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
+    min: Size | None = None
+    max: Size | None = None
+
+    @field_validator("max")
+    @classmethod
+    def _ordered(cls, largest, info):
+        return _above_min(largest, info.data)
+
+
+class SieveGrading(_Table):
+    """Percent finer by mass at the openings of sieves, from a file."""
+
+    form: Literal["sieve"]
+    size: Literal["diameter"]
+    basis: Literal["mass"]
+
+
+class DensityGrading(_Table):
+    """A density at some sizes, from a file."""
+
+    form: Literal["density"]
+    basis: Literal["number", "mass"]
+
+
+class RadiiGrading(_Sizes):
+    """The sizes of single grains, from a file."""
+
+    form: Literal["radii"]
+    basis: Literal["number"]
+    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
+
+
+_Simple = (
+    UniformGrading
+    | LoguniformGrading
+    | NormalGrading
+    | LognormalGrading
+    | WeibullGrading
+    | FractalGrading
+    | FullerGrading
+    | SingleGrading
+    | SieveGrading
+    | DensityGrading
+    | RadiiGrading
+)
+SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
+
+
+class Component(Section):
+    """One part of a mixture."""
+
+    weight: Positive
+    grading: SimpleGrading
+
+
+_SEVERAL = "must be a list of 2 or more, each with a weight and a grading"
+
+
+class MixtureGrading(Section):
+    """Other gradings in parts by number or by mass."""
+
+    form: Literal["mixture"]
+    basis: Literal["number", "mass"]
+    components: list[Component] = Field(description=_SEVERAL)
+
+    @field_validator("components", mode="before")
+    @classmethod
+    def _several(cls, components):
+        if not isinstance(components, list) or len(components) < 2:
+            raise refusal(_SEVERAL)
+        return components
+
+
+GradingSection = Annotated[_Simple | MixtureGrading, Field(discriminator="form")]
+
+
+def grading_data_files(section):
+    """Return the names of the files that a section of the configuration reads.
+
+    Examples
+    --------
+    >>> sieve = {"form": "sieve", "file": "sand.csv"}
+    >>> grading_data_files({"form": "mixture", "components": [{"weight": 1, "grading": sieve}]})
+    ['sand.csv']
+    """
+    parts = [component["grading"] for component in section.get("components", [])]
+    return [part["file"] for part in [section, *parts] if "file" in part]
+
+
+def _above_min(largest, data):
+    smallest, unit = data.get("min"), data.get("unit")
+    if largest is not None and smallest is not None and smallest >= largest:
+        raise refusal(f"must be above min {smallest:g} {unit or ''}".rstrip(), unit=unit)
+    return largest
+
+
+def _check_share(distribution, data, centre, parameters, unit_of_width=""):
+    """Refuse a distribution that hardly reaches between min and max, if these are known."""
+    if not {"min", "max", "unit", centre} <= set(data):
+        return
+    # Every job reads the configuration; few of them need what SciPy takes seconds to import.
+    from scipy import stats
+
+    from branchcrush.gradings.truncation import LEAST_SHARE, share_within
+
+    low, high, at, unit = data["min"], data["max"], data[centre], data["unit"]
+    share = share_within(getattr(stats, distribution)(**parameters(at)), low, high)
+    if not share >= LEAST_SHARE:
+        raise refusal(
+            f"with {centre} {at:g} {unit} only {share:.2g} of the distribution lies between min "
+            f"{low:g} {unit} and max {high:g} {unit}; at least {LEAST_SHARE:g} must: move them or "
+            "check the unit",
+            unit=unit_of_width,
+        )

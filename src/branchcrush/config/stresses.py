@@ -1,0 +1,72 @@
+"""The mean stresses of a loading, as a user may give them: a number, a list, or a range."""
+
+from itertools import pairwise
+
+from branchcrush.config.fields import number_of, one_line, refusal
+from branchcrush.loading.targets import stresses
+
+_RANGE = {"from", "to", "states"}
+_MOST_STATES = 1000
+_ALLOWED = (
+    "must be a stress in Pa, an increasing list of them, or a range {from: 1e5, to: 1e7, states: 9}"
+)
+
+
+def increasing_stresses(value):
+    """Return the mean stresses of a config key as an increasing list [Pa].
+
+    Parameters
+    ----------
+    value : float, list, or dict with from, to and states
+
+    Returns
+    -------
+    list of float
+
+    Raises
+    ------
+    ValueError
+        Saying what is allowed.
+
+    Examples
+    --------
+    >>> increasing_stresses({"from": "1e5", "to": 1e7, "states": 3})
+    [100000.0, 1000000.0, 10000000.0]
+    """
+    if value is None:
+        return None
+    if isinstance(value, dict):
+        return _range(value)
+    items = value if isinstance(value, list) else [value]
+    found = [_stress(item) for item in items]
+    if not found:
+        raise _refused("the list is empty")
+    if len(found) > _MOST_STATES:
+        raise _refused(f"{len(found)} stresses are more than {_MOST_STATES}")
+    for low, high in pairwise(found):
+        if low >= high:
+            raise _refused(f"{high:g} does not rise above {low:g} before it")
+    return found
+
+
+def _range(value):
+    if set(value) != _RANGE:
+        raise _refused(f"its keys are {', '.join(map(one_line, value)) or 'none'}")
+    states = number_of(value["states"])
+    if states is None or states != int(states) or not 2 <= states <= _MOST_STATES:
+        raise _refused(f"states must be a whole number from 2 to {_MOST_STATES}")
+    ends = [_stress(value[end]) for end in ("from", "to")]
+    if ends[0] >= ends[1]:
+        raise _refused(f"from {ends[0]:g} Pa must be below to {ends[1]:g} Pa")
+    return stresses({"from": ends[0], "to": ends[1], "states": int(states)})
+
+
+def _stress(value):
+    stress = number_of(value)
+    if stress is None or not 0 < stress <= 1e15:
+        raise _refused("each must be a number above 0 and at most 1e15")
+    return float(stress)
+
+
+def _refused(what):
+    return refusal(f"{_ALLOWED}; {what}", unit="Pa")

@@ -1,0 +1,63 @@
+"""Einav's energy split: how the elastic energy of a grain goes with its own radius."""
+
+import numpy as np
+
+from branchcrush.packings.grains import grain_energy
+from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
+
+# Of Einav's split: energy per unit mass as the square of the diameter, so per grain as its fifth
+# power.
+EINAV = 5.0
+
+
+def _power(theta, radius=None):
+    if theta is None:
+        return [0.0, 3.0]
+    slope = np.stack([np.ones_like(radius), radius], axis=1)
+    return slope @ theta, slope
+
+
+def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resamples=2000, rng):
+    r"""Return the exponent of the energy of a grain in its radius.
+
+    .. math:: \langle e \rangle(R) \sim R^a
+
+    Einav's split of the specific energy, as D^2, is a = 5; energy in proportion to volume is 3.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    contact_exponent : float
+        1 for linear contacts, 3/2 for Hertz.
+    confidence, resamples, rng
+        As for `statistics.intervals.pooled_interval`.
+
+    Returns
+    -------
+    dict
+        exponent_all_grains, rattlers counted with the little or nothing they hold, and
+        exponent_load_bearing, each with _low and _high.
+
+    Raises
+    ------
+    FitError
+        As `statistics.gamma_regression.gamma_fit`; all grains of one radius have no exponent.
+
+    References
+    ----------
+    Einav (2007), J. Mech. Phys. Solids 55, 1274.
+    """
+    radius_max = max(network.radius.max() for network in networks)
+    found = {}
+    for name in ("all_grains", "load_bearing"):
+        seeds = []
+        for network in networks:
+            kept = ~network.rattlers if name == "load_bearing" else slice(None)
+            energy = grain_energy(network, contact_exponent)[kept]
+            seeds.append((np.log(network.radius[kept] / radius_max), energy))
+        fit = gamma_fit(seeds, _power)
+        limits = parameter_intervals(fit, confidence=confidence, resamples=resamples, rng=rng)
+        for part, values in zip(("", "_low", "_high"), limits, strict=True):
+            found[f"exponent_{name}{part}"] = float(values[1])
+    return found

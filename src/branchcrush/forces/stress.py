@@ -1,0 +1,165 @@
+"""How the stress of a packing is shared among grains of different radius."""
+
+import numpy as np
+
+from branchcrush.packings.grains import grain_stress_volume, solid_volume
+from branchcrush.statistics.bins import bin_numbers
+from branchcrush.statistics.intervals import pooled_interval
+
+_POINTS = 100
+
+
+def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
+    r"""Return the mean stress of the grains of each class of radius over that of all.
+
+    .. math:: \frac{\sum_{g \in k} p_g V_g / \sum_{g \in k} V_g}{\sum_g p_g V_g / \sum_g V_g}
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    edges : array_like, shape (K+1,)
+        Classes of radius [m].
+    confidence, resamples, rng
+        As for `statistics.intervals.pooled_interval`.
+
+    Returns
+    -------
+    dict of ndarray, shape (K,)
+        radius_low_m, radius_high_m, mean_radius_m, grains; stress_ratio with _low and _high, and
+        load_bearing_stress_ratio, of the grains that are no rattlers.
+    """
+    classes, sums = len(edges) - 1, []
+    grains, radii = np.zeros(classes), np.zeros(classes)
+    for network in networks:
+        group = bin_numbers(network.radius, edges)
+        stress, volume = grain_stress_volume(network), solid_volume(network.radius)
+        bearing = ~network.rattlers
+        parts = (stress, volume, bearing * stress, bearing * volume)
+        sums.append([np.bincount(group, part, classes) for part in parts])
+        grains += np.bincount(group, minlength=classes)
+        radii += np.bincount(group, network.radius, classes)
+
+    def ratios(totals):
+        stress, volume, held_stress, held_volume = np.moveaxis(totals, 1, 0)
+        mean = stress.sum(axis=1) / volume.sum(axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            found = np.stack([stress / volume, held_stress / held_volume], axis=1)
+        return found / mean[:, None, None]
+
+    limits = pooled_interval(sums, ratios, confidence=confidence, resamples=resamples, rng=rng)
+    with np.errstate(invalid="ignore"):
+        mean_radius = radii / grains
+    table = {
+        "radius_low_m": np.asarray(edges[:-1]),
+        "radius_high_m": np.asarray(edges[1:]),
+        "mean_radius_m": mean_radius,
+        "grains": grains.astype(int),
+    }
+    for row, name in enumerate(("stress_ratio", "load_bearing_stress_ratio")):
+        for part, values in zip(("", "_low", "_high"), limits, strict=True):
+            table[name + part] = values[row]
+    return table
+
+
+def cumulative_sharing(radius, stress_volume, volume_share):
+    r"""Return the share of the stress that the finest grains with a share of the volume carry.
+
+    .. math:: S(x) = \frac{\sum_{g:\, \text{finest}} p_g V_g}{\sum_g p_g V_g}, \qquad
+        x = \frac{\sum_{g:\, \text{finest}} V_g}{\sum_g V_g}
+
+    Parameters
+    ----------
+    radius, stress_volume : array_like, shape (N,)
+        [m], and mean stress times volume of each grain [J].
+    volume_share : array_like, shape (n,)
+        x, from 0 to 1 [-].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        [-]; x itself when all grains have the same mean stress.
+
+    Examples
+    --------
+    >>> cumulative_sharing([2.0, 1.0, 1.0], [8.0, 0.0, 2.0], [0.0, 0.2, 1.0]).tolist()
+    [0.0, 0.2, 1.0]
+    """
+    volume, group = np.unique(radius, return_inverse=True)
+    # Grains of one radius come together, in whatever order they are.
+    volume = np.bincount(group) * volume**3
+    stress = np.bincount(group, stress_volume)
+    at = np.append(0.0, np.cumsum(volume)) / volume.sum()
+    carried = np.append(0.0, np.cumsum(stress)) / stress.sum()
+    return np.interp(volume_share, at, carried)
+
+
+def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
+    r"""Return the cumulative stress against the cumulative volume, from the finest grains on.
+
+    .. math:: I = 2 \int_0^1 (x - S(x))\, dx
+
+    I is 0 when all grains have the same mean stress, more when the coarse ones have more, and less
+    than 0 when the fine ones do.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    confidence, resamples, rng
+        As for `statistics.intervals.pooled_interval`.
+
+    Returns
+    -------
+    table : dict of ndarray
+        volume_share and stress_share, the mean of the seeds, with _low and _high.
+    summary : dict
+        coarse_half_stress_share, carried by the coarser half of the solid volume, and
+        sharing_index I, each with _low and _high.
+    """
+    shares = np.linspace(0.0, 1.0, _POINTS + 1)
+    curves = np.array(
+        [cumulative_sharing(seed.radius, grain_stress_volume(seed), shares) for seed in networks]
+    )
+    index = 2.0 * np.trapezoid(shares - curves, shares, axis=1)
+    numbers = np.column_stack([curves, 1.0 - curves[:, _POINTS // 2], index])
+    # With a count of one in front, the mean of the seeds drawn is a ratio of sums.
+    sums = np.column_stack([np.ones(len(networks)), numbers])
+    limits = pooled_interval(
+        sums,
+        lambda totals: totals[:, 1:] / totals[:, :1],
+        confidence=confidence,
+        resamples=resamples,
+        rng=rng,
+    )
+    table, summary = {"volume_share": shares}, {}
+    for part, values in zip(("", "_low", "_high"), limits, strict=True):
+        table[f"stress_share{part}"] = values[:-2]
+        summary[f"coarse_half_stress_share{part}"] = float(values[-2])
+        summary[f"sharing_index{part}"] = float(values[-1])
+    return table, summary
+
+
+def stress_sharing_result(networks, classes, *, confidence=0.95, resamples=2000, rng):
+    r"""Return all that this module tells of the stress of a sample in one state.
+
+    Parameters
+    ----------
+    networks : list of networks.Network
+        One a seed.
+    classes : array_like, shape (K+1,)
+        Classes of radius [m].
+    confidence, resamples, rng
+        As for `statistics.intervals.pooled_interval`.
+
+    Returns
+    -------
+    tables : dict of dict of ndarray
+        stress_by_radius and stress_sharing.
+    summary : dict
+        As of `stress_sharing`.
+    """
+    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    by_radius = stress_by_radius(networks, classes, **options)
+    table, summary = stress_sharing(networks, **options)
+    return {"stress_by_radius": by_radius, "stress_sharing": table}, summary

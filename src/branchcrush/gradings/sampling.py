@@ -1,0 +1,64 @@
+"""Radii of the grains of a packing, drawn from a grading at random or at its quantiles."""
+
+import numpy as np
+
+METHODS = ("random", "number_quantiles", "mass_quantiles")
+
+
+def sampled_radii(grading, grains, method, rng):
+    r"""Return the radii of N grains of a grading, the largest first.
+
+    "random" draws them independently. "number_quantiles" takes the middle of N intervals of equal
+    number, "mass_quantiles" the radius of the mean volume in each: its sieve curve meets the
+    target's at the end of every interval.
+
+    .. math:: R_i = F^{-1}\left(\frac{i - 1/2}{N}\right), \qquad
+        R_i^3 = N \int_{(i-1)/N}^{i/N} \left(F^{-1}(q)\right)^3 dq
+
+    Parameters
+    ----------
+    grading : Grading
+    grains : int
+        N.
+    method : {"random", "number_quantiles", "mass_quantiles"}
+        An interval across two single sizes has a grain between them by "mass_quantiles" only.
+    rng : numpy.random.Generator
+        Used by "random".
+
+    Returns
+    -------
+    ndarray, shape (N,)
+        [m]
+
+    Raises
+    ------
+    ValueError
+        For an unknown method.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.curves import uniform
+    >>> sampled_radii(uniform(1.0, 3.0), 2, "number_quantiles", None).round(12).tolist()
+    [2.5, 1.5]
+    >>> sampled_radii(uniform(1.0, 3.0), 2, "mass_quantiles", None).round(4).tolist()
+    [2.5329, 1.5536]
+    """
+    if method == "random":
+        radii = grading.rvs(grains, rng)
+    elif method == "number_quantiles":
+        radii = grading.number_ppf((np.arange(grains) + 0.5) / grains)
+    elif method == "mass_quantiles":
+        radii = _radii_of_mean_volume(grading, grains)
+    else:
+        raise ValueError(f"method must be one of {', '.join(METHODS)}, not {method!r}")
+    return np.sort(radii)[::-1]
+
+
+def _radii_of_mean_volume(grading, grains):
+    ends = np.arange(grains + 1) / grains
+    radius = grading.number_ppf(ends)
+    # The mass of the smallest grains up to a share of the number, which may end within one size.
+    excess = (grading.number_cdf(radius) - ends) * radius**3
+    volume = grading.mass_cdf(radius) * grading.moment(3) - excess
+    # Rounding of a small difference must not lead out of its interval.
+    return np.clip(np.cbrt(grains * np.diff(volume)), radius[:-1], radius[1:])

@@ -1,0 +1,128 @@
+"""Gradings from tables: a sieve curve, or a density at a few radii."""
+
+import numpy as np
+
+from branchcrush.errors import GradingError
+from branchcrush.gradings.truncation import truncated
+
+
+def from_percent_finer(radius, percent, radius_min=None, radius_max=None):
+    r"""Return the grading of a sieve curve, drawn through its points without overshooting.
+
+    .. math:: g(R) = \frac{1}{R} \frac{d F}{d \ln R}
+
+    F is the monotone cubic in ln R through the points. Where it is level, as in a gap-graded
+    soil, there are no grains.
+
+    Parameters
+    ----------
+    radius : array_like, shape (n,)
+        Increasing [m].
+    percent : array_like, shape (n,)
+        Percent finer by mass, nowhere falling [%]. From 0 to 100, unless cut before it ends.
+    radius_min, radius_max : float, optional
+        Grains below the one and above the other are left out, and the rest is 100 % [m].
+
+    Returns
+    -------
+    Grading
+
+    Raises
+    ------
+    GradingError
+        When the table is not such a curve, or has nothing left between the two radii.
+
+    Examples
+    --------
+    >>> sand = from_percent_finer([0.1, 0.2, 0.4], [0.0, 50.0, 100.0])
+    >>> sand.mass_ppf(0.5).round(12).item()
+    0.2
+
+    References
+    ----------
+    Fritsch and Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304, for the cubic.
+    """
+    radius, percent = _columns(radius, percent)
+    if np.any(np.diff(percent) < 0) or percent[0] < 0 or percent[-1] > 100:
+        raise GradingError("percent finer must grow with the radius, from 0 to 100")
+    for value, bound, end, step in (
+        (percent[0], radius_min, radius[0], 1),
+        (100 - percent[-1], radius_max, radius[-1], -1),
+    ):
+        if value > 0 and (bound is None or step * bound < step * end):
+            raise GradingError(
+                f"the curve must run from 0 to 100 percent finer, not {percent[0]:g} to "
+                f"{percent[-1]:g}, unless it is cut within the radii {radius[0]:g} m to "
+                f"{radius[-1]:g} m that it covers"
+            )
+    # Sieves that hold nothing or let everything pass say nothing about the curve between.
+    first, last = np.flatnonzero(percent == percent[0])[-1], np.argmax(percent == percent[-1])
+    if first >= last:
+        raise GradingError(
+            f"the curve is {percent[0]:g} percent throughout: give it a second value"
+        )
+    radius, percent = radius[first : last + 1], percent[first : last + 1]
+    from scipy.interpolate import PchipInterpolator  # slow to import, for sieve tables alone
+
+    slope = PchipInterpolator(np.log(radius), percent / 100).derivative()
+
+    def density(r):
+        # A level part must not come out below 0 by rounding.
+        return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
+
+    return _between(density, radius, radius_min, radius_max, "mass")
+
+
+def from_density(radius, density, by, radius_min=None, radius_max=None):
+    """Return the grading whose density is drawn straight from point to point.
+
+    Parameters
+    ----------
+    radius : array_like, shape (n,)
+        Increasing [m].
+    density : array_like, shape (n,)
+        Not negative, of any scale [1/m].
+    by : {"number", "mass"}
+    radius_min, radius_max : float, optional
+        Grains below the one and above the other are left out [m].
+
+    Returns
+    -------
+    Grading
+
+    Raises
+    ------
+    GradingError
+        When the table is not such a density, or has nothing left between the two radii.
+
+    Examples
+    --------
+    >>> from_density([1.0, 2.0, 3.0], [0.0, 1.0, 0.0], "number").number_cdf(2.0).round(12).item()
+    0.5
+    """
+    radius, density = _columns(radius, density)
+    if np.any(density < 0) or not np.any(density > 0):
+        raise GradingError("a density must not be negative, nor 0 at every radius")
+    held = np.flatnonzero(density > 0)
+    first, last = max(held[0] - 1, 0), min(held[-1] + 1, radius.size - 1)
+    radius, density = radius[first : last + 1], density[first : last + 1]
+    return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
+
+
+def _between(density, radius, radius_min, radius_max, by):
+    low = radius[0] if radius_min is None else max(radius_min, radius[0])
+    high = radius[-1] if radius_max is None else min(radius_max, radius[-1])
+    if not low < high:
+        raise GradingError(
+            f"no grains are left between {low:g} m and {high:g} m: the table has them from "
+            f"{radius[0]:g} m to {radius[-1]:g} m"
+        )
+    return truncated(density, radius, low, high, by)
+
+
+def _columns(radius, values):
+    radius, values = np.asarray(radius, dtype=float), np.asarray(values, dtype=float)
+    usable = radius.shape == values.shape and radius.ndim == 1 and radius.size > 1
+    if not (usable and np.isfinite([radius, values]).all() and np.all(np.diff(radius) > 0)):
+        raise GradingError("a table needs two rows or more of finite numbers, the radii increasing")
+    return radius, values

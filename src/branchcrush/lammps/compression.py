@@ -1,0 +1,181 @@
+"""The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
+
+import shutil
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from branchcrush.errors import SimulationError
+from branchcrush.lammps.files import write_data_file
+from branchcrush.lammps.neighbours import neighbour_settings
+from branchcrush.lammps.output import DUMPS, read_compression
+from branchcrush.lammps.run import run_script
+from branchcrush.loading.states import force_floor, stress_floor
+from branchcrush.loading.targets import (
+    STEP_FORCE_EVALUATIONS,
+    STEP_UNBALANCED_FORCE_RATIO,
+    UNBALANCED_FORCE_RATIO,
+    loading_targets,
+)
+from branchcrush.packings.placement import cube_edge
+
+# Solid fraction of a loaded packing, on which a trial is made.
+_TRIAL = 0.68
+
+
+def compression_variables(radii, initial_solid_fraction, *, boundary, law, loading, strain_step):
+    """Return the variables of `in.compress` for a packing and its loading.
+
+    Parameters
+    ----------
+    radii : array_like, shape (N,)
+        [m]
+    initial_solid_fraction : float
+        Of the loose packing [-].
+    boundary : {"walls", "periodic"}
+    law : contact_law.LinearContact or HertzContact
+    loading : dict
+        The config section.
+    strain_step : float
+        Largest linear strain of a step [-].
+
+    Returns
+    -------
+    dict
+        A value is a list where the variable takes several.
+
+    Raises
+    ------
+    SimulationError
+        When the largest grain is larger than the final cell, or a target stress is one that a
+        packing without load may have.
+
+    Examples
+    --------
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> loading = {"target": "edge_reduction", "value": 0.4, "states": 2, "unloading": False,
+    ...            "approach_solid_fraction": 0.3}
+    >>> variables = compression_variables(
+    ...     [1e-3] * 8, 0.16, boundary="walls", law=LinearContact(1e6), loading=loading,
+    ...     strain_step=1e-3)
+    >>> variables["control"], [round(edge, 6) for edge in variables["targets"]]
+    ('edge', [0.00419, 0.003563])
+    """
+    control, targets = loading_targets(radii, initial_solid_fraction, loading)
+    largest, floor = float(np.max(radii)), stress_floor(radii, law)
+    if control == "edge" and min(targets) < 2.0 * largest:
+        raise SimulationError(
+            f"the cell ends at an edge of {min(targets):.4g} m, smaller than the largest grain of "
+            f"{2.0 * largest:.4g} m: use more grains or load less"
+        )
+    if control == "stress" and min(targets) < floor:
+        raise SimulationError(
+            f"a mean stress of {min(targets):.4g} Pa is below {floor:.4g} Pa, which grains of this "
+            "stiffness may have without carrying load: ask for more, or for softer contacts"
+        )
+    approach_edge = cube_edge(radii, loading["approach_solid_fraction"])
+    return {
+        "boundary": boundary,
+        "law": law.name,
+        "stiffness": float(law.stiffness),
+        "approach_edge": approach_edge,
+        "control": control,
+        "targets": targets,
+        "strain_step": float(strain_step),
+        "step_tolerance": STEP_UNBALANCED_FORCE_RATIO[control],
+        "step_evaluations": STEP_FORCE_EVALUATIONS,
+        "state_tolerance": UNBALANCED_FORCE_RATIO,
+        "force_floor": force_floor(radii, law),
+        "largest_radius": largest,
+        **neighbour_settings(radii, approach_edge),
+    }
+
+
+def compress(positions, radii, edge, variables, *, inputs, folder, log, ranks=1):
+    """Compress a packing in LAMMPS and return its loading path and contacts.
+
+    Runs `in.compress`; its dumps are moved into the folder when the run is complete. Where the
+    script has to stop on the way (a grain escapes, a state does not come to rest, a stress is not
+    reached) the states saved so far are returned, and column `stopped` of the last says why.
+
+    Parameters
+    ----------
+    positions : ndarray, shape (N, 3)
+        Origin at the centre of the cube [m].
+    radii : ndarray, shape (N,)
+        [m]
+    edge : float
+        [m]
+    variables : dict
+        From `compression_variables`; any other variable of in.compress may be set as well.
+    inputs : path-like
+        The folder of in.compress.
+    folder : path-like
+        Where the dumps go.
+    log : path-like
+        Where LAMMPS logs, a progress line each strain step.
+    ranks : int
+        MPI processes that share the packing.
+
+    Returns
+    -------
+    Compression
+
+    Raises
+    ------
+    SimulationError
+        When LAMMPS itself stops, or lists a contact twice.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    with (
+        tempfile.TemporaryDirectory(dir=folder, prefix=".compress-") as scratch,
+        tempfile.TemporaryDirectory(prefix="branchcrush-") as links,
+    ):
+        scratch, links = Path(scratch).resolve(), Path(links)
+        write_data_file(scratch / "packing.data", positions, radii, edge)
+        # LAMMPS reads no path with a space in it, and the project may lie in such a one.
+        (links / "inputs").symlink_to(Path(inputs).resolve())
+        (links / "output").symlink_to(scratch)
+        stopped = run_script(
+            links / "inputs" / "in.compress",
+            {
+                **variables,
+                "data": links / "output" / "packing.data",
+                "inputs": links / "inputs",
+                "output_folder": links / "output",
+                "quit_on_failure": "no",
+            },
+            log,
+            ranks,
+        )
+        tables = read_compression(scratch, variables, stopped)
+        for name in DUMPS:
+            shutil.move(scratch / name, folder / name)
+    return tables
+
+
+def trial(positions, radii, edge, variables, *, inputs, folder, log):
+    """Return the time that a force evaluation of a grain takes on this machine, tried out.
+
+    Runs the approach of a packing and one strain step in the range of a loaded packing.
+
+    Parameters
+    ----------
+    positions, radii, edge, variables, inputs, folder, log
+        As for `compress`.
+
+    Returns
+    -------
+    float
+        [s]
+    """
+    variables = {**variables, "control": "edge", "targets": [cube_edge(radii, _TRIAL)]}
+    variables |= {"strain_step": 1.0, "approach_steps": 20}
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".trial-") as scratch:
+        start = time.perf_counter()
+        result = compress(positions, radii, edge, variables, inputs=inputs, folder=scratch, log=log)
+        seconds = time.perf_counter() - start
+    return seconds / result.path["force_evaluations"][-1] / len(radii)

@@ -1,0 +1,125 @@
+"""What a run of `lammps_inputs/in.compress` leaves, made into tables state by state."""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from pyarrow import csv
+
+from branchcrush.errors import SimulationError
+from branchcrush.lammps.files import read_dump
+from branchcrush.loading.states import cube, path_row, state_contacts, wall_contacts
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
+
+DUMPS = ("particles.dump.gz", "pairs.dump.gz")
+_LAWS = {"linear": LinearContact, "hertz": HertzContact}
+
+
+class Compression(NamedTuple):
+    """What a compression leaves: a table for each kind of thing, as a dict of columns."""
+
+    path: dict  # a row for each state, as `loading.states.path_row`
+    contacts: dict  # a row for each contact and state, as `loading.states.state_contacts`
+    walls: dict  # the same with walls, as `loading.states.wall_contacts`
+    steps: dict  # a row for each strain step
+
+
+def read_compression(folder, variables, stopped):
+    """Return the loading path and the contacts of a run; one state's dump is held at a time.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Holds states.csv, steps.csv and the `DUMPS`.
+    variables : dict
+        Those of the run, as `lammps.compression.compression_variables`.
+    stopped : str
+        Why it stopped before its end; empty where it did not.
+
+    Returns
+    -------
+    Compression
+
+    Raises
+    ------
+    SimulationError
+        When a contact is listed twice, or a dump does not hold a frame for each state.
+    """
+    scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
+    lines = [dict(zip(scalars, line, strict=True)) for line in zip(*scalars.values(), strict=True)]
+    frames = [read_dump(folder / name) for name in DUMPS]
+    state = partial(_state, variables=variables, first_edge=scalars["edge"][0])
+    # Unlike a loop over zip, map lets go of a frame before it reads the next one.
+    path, contacts, walls = zip(*map(state, lines, *frames), strict=True)
+    if len(path) < len(lines) or any(next(frame, None) is not None for frame in frames):
+        raise SimulationError(
+            f"LAMMPS saved {len(lines)} states, and other numbers of frames in {DUMPS}: "
+            "is the disk full?"
+        )
+    path[-1]["stopped"] = stopped
+    path = {name: np.array([row[name] for row in path]) for name in path[0]}
+    # Work is counted from the end of the approach, the second state: what it holds was put in.
+    held = path["elastic_energy_J"][1:2].sum()
+    steps["work"] = steps["work"] + held
+    for name in ("work_J", "dissipated_J"):
+        path[name][1:] += held
+    return Compression(
+        path,
+        _table(path["state"], contacts),
+        _table(path["state"], walls),
+        _steps(steps, path["solid_fraction"][0] * path["volume_m3"][0]),
+    )
+
+
+def _columns(path):
+    # Arrow's own `to_numpy` would import pandas, which takes half a second.
+    options = csv.ReadOptions(use_threads=False), None, csv.ConvertOptions(null_values=[])
+    columns = csv.read_csv(path, *options).to_pydict()
+    return {name: np.array(column) for name, column in columns.items()}
+
+
+def _state(line, particles, pairs, *, variables, first_edge):
+    """Return the row of the path, the contacts and the wall contacts of a state."""
+    law = _LAWS[variables["law"]](variables["stiffness"])
+    touching = state_contacts(pairs, particles["radius"], law)
+    at_wall = wall_contacts(particles, line["edge"])
+    row = path_row(
+        line,
+        particles,
+        touching,
+        at_wall,
+        first_edge=first_edge,
+        law=law,
+        periodic=variables["boundary"] == "periodic",
+    )
+    return {**row, "leg": _leg(row["state"], variables), "stopped": ""}, touching, at_wall
+
+
+def _leg(state, variables):
+    # Targets that go back unload. Two states come before the first target.
+    targets = np.asarray(variables["targets"]) * (-1 if variables["control"] == "edge" else 1)
+    return "loading" if state - 2 <= int(np.argmax(targets)) else "unloading"
+
+
+def _table(states, parts):
+    """Return one table of the columns of each state, and empty the parts on the way."""
+    columns = {"state": np.repeat(states, [len(part["i"]) for part in parts])}
+    for name in list(parts[0]):
+        # Taken away, so that one column at most is in memory twice.
+        columns[name] = np.concatenate([part.pop(name) for part in parts])
+    return columns
+
+
+def _steps(steps, solid_volume):
+    """Return the strain steps with units in the names."""
+    volume = cube(steps["edge"])
+    return {
+        "step": steps["step"],
+        "solid_fraction": solid_volume / volume,
+        "volume_m3": volume,
+        "mean_stress_Pa": steps["mean_stress"],
+        "work_J": steps["work"],
+        "unbalanced_force_ratio": steps["unbalanced"],
+        "contacts": steps["contacts"],
+        "force_evaluations": steps["evaluations"],
+    }

@@ -1,0 +1,200 @@
+"""One run of a LAMMPS script: in this process, or over MPI ranks in processes of its own."""
+
+import contextlib
+import ctypes
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from branchcrush.errors import SimulationError
+from branchcrush.lammps.library import load_lammps
+
+
+def declared_variables(script):
+    """Return the variables a LAMMPS script declares with style index, and their defaults.
+
+    Parameters
+    ----------
+    script : path-like
+
+    Returns
+    -------
+    dict of str
+    """
+    text = Path(script).read_text(encoding="utf-8")
+    return dict(re.findall(r"^variable\s+(\w+)\s+index\s+(.+)$", text, re.MULTILINE))
+
+
+def run_script(script, variables, log, ranks=1):
+    """Run a script to its end, and return why it stopped before, if it did.
+
+    The seconds inside LAMMPS are the last line of the log.
+
+    Parameters
+    ----------
+    script : pathlib.Path
+        It tells by its variables `failed`, `failure` and `edge` whether it stopped.
+    variables : dict
+        A value may be a list.
+    log : path-like
+        Where LAMMPS logs.
+    ranks : int
+        Processes that share the packing.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    SimulationError
+        When LAMMPS itself stops, or the script does not declare a variable.
+    """
+    # LAMMPS ignores a misspelt -var silently.
+    unknown = set(variables) - set(declared_variables(script))
+    if unknown:
+        raise SimulationError(f"{script.name} declares no variable {', '.join(sorted(unknown))}")
+    arguments = ["-nocite", "-screen", "none", "-log", str(log)]
+    for name, value in variables.items():
+        arguments += ["-var", name, *_words(value)]
+    if ranks == 1:
+        result = _run(script, arguments, ranks)
+    else:
+        with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
+            result = _run_on_ranks(script, arguments, ranks, Path(folder), log)
+    with open(log, "a", encoding="utf-8") as file:
+        file.write(f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
+    if result["error"]:
+        raise SimulationError(f"LAMMPS stopped: {result['error']} (log: {log})")
+    return result["stopped"]
+
+
+def _run(script, arguments, ranks):
+    """Run a script in this process; an error of LAMMPS is part of what is returned."""
+    lammps, stopped, problem, seconds, rank = None, "", "", 0.0, 0
+    try:
+        library = load_lammps()
+        start = time.perf_counter()
+        lammps = library(cmdargs=arguments)
+        rank, world = (lammps.extract_setting(f"world_{what}") for what in ("rank", "size"))
+        if world != ranks:  # each would run alone, and write over the others
+            raise RuntimeError(
+                f"{ranks} ranks were asked for, and this mpiexec gives LAMMPS a world of {world}: "
+                "it belongs to another MPI; install mpich into this Python, or use ranks: 1"
+            )
+        with _interruptible():
+            lammps.file(str(script))
+        if int(lammps.extract_variable("failed")):
+            edge = float(lammps.extract_variable("edge"))
+            stopped = f"stopped at an edge of {edge:.6g} m: {lammps.extract_variable('failure')}"
+    except SimulationError:
+        raise
+    except Exception as error:  # LAMMPS raises plain exceptions
+        problem = (str(error).strip() or type(error).__name__).splitlines()[0]
+    finally:
+        if lammps is not None:
+            # Others may wait for a rank that failed: it must not wait for them.
+            if ranks == 1 or not problem:
+                lammps.close()
+            seconds = time.perf_counter() - start
+    return {"rank": rank, "stopped": stopped, "error": problem, "seconds": seconds}
+
+
+def _run_on_ranks(script, arguments, ranks, folder, log):
+    """Run a script over MPI ranks; the first of them leaves the result in a file."""
+    job = [str(script), arguments, ranks]
+    (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
+    launcher = _launcher()
+    if launcher is None:
+        raise SimulationError(
+            f"{ranks} ranks were asked for, and there is no mpiexec: install the package mpich "
+            "into this Python, or use ranks: 1"
+        )
+    # mpi4py ends all ranks when one of them fails.
+    command = [launcher, "-n", str(ranks), sys.executable, "-m", "mpi4py", "-m", __name__, folder]
+    # All ranks are this job's, on this machine, also inside a Slurm allocation.
+    environment = {name: v for name, v in os.environ.items() if not name.startswith("SLURM_")}
+    _end_with_parent()
+    process = subprocess.Popen(
+        [str(word) for word in command],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**environment, "HYDRA_LAUNCHER": "fork"},
+        preexec_fn=_end_with_parent,
+    )
+    try:
+        output, _ = process.communicate()
+    except BaseException:
+        # Not before it has ended is there nobody who writes to the scratch folders.
+        process.terminate()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=10)
+        process.kill()
+        raise
+    result = folder / "result.json"
+    if not result.exists():
+        with open(log, "a", encoding="utf-8") as file:
+            file.write(output)
+        raise SimulationError(
+            f"LAMMPS ended on {ranks} ranks without a result, exit code {process.returncode}: was "
+            f"one killed, for want of memory? (log: {log})"
+        )
+    return json.loads(result.read_text(encoding="utf-8"))
+
+
+def _launcher():
+    # That which belongs to the MPI of this interpreter's LAMMPS lies beside it.
+    beside = Path(sys.executable).with_name("mpiexec")
+    return str(beside) if beside.exists() else shutil.which("mpiexec")
+
+
+def _words(value):
+    # repr keeps all digits, but that of a NumPy number is not one LAMMPS reads.
+    values = value if isinstance(value, list) else [value]
+    return [repr(float(item)) if isinstance(item, float) else str(item) for item in values]
+
+
+def _end_with_parent():
+    """End this process when its parent ends, whichever way that happens."""
+    if sys.platform == "linux":
+        set_parent_death_signal = 1
+        ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
+
+
+@contextlib.contextmanager
+def _interruptible():
+    """Let Ctrl-C and the end of the parent process end a run that never returns to Python."""
+    _end_with_parent()
+    before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def main(folder):
+    """Run the job of a folder on this rank, of all that were started for it."""
+    folder = Path(folder)
+    script, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
+    result = _run(Path(script), arguments, ranks)
+    if result["rank"] == 0 or result["error"]:
+        own = folder / f"result-{result['rank']}.json"
+        own.write_text(json.dumps(result), encoding="utf-8")
+        # All may fail alike: a file that is there is whole.
+        own.replace(folder / "result.json")
+    if result["error"]:
+        # Other ranks may wait for this one: an exception ends them all.
+        raise SimulationError(result["error"])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

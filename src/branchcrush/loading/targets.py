@@ -1,0 +1,213 @@
+"""What a compression is asked for: where its states lie, and in how small steps it goes there."""
+
+import numpy as np
+
+from branchcrush.packings.placement import cube_edge
+
+# Largest linear strain of a step [-]. docs/quality.md tells what each is good for, measured.
+STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}
+# Mean net force over mean contact force [-], whatever the quality: of a saved state, and of a
+# strain step on the way to an edge, or to a stress, which must be told from the next step's.
+UNBALANCED_FORCE_RATIO = 1.0e-7
+STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 1.0e-2}
+# A step to an edge that does not get there in so many force evaluations goes on as it is. Close to
+# jamming most do not: the packing moves on before it has come to rest.
+STEP_FORCE_EVALUATIONS = 200
+# Of a packing loaded to a stress, whose solid fraction nobody knows beforehand.
+_LOADED = 0.64
+STRAIN_TARGETS = ("edge_reduction", "volume_reduction", "solid_fraction")
+
+
+def final_solid_fraction(initial_solid_fraction, target, value):
+    r"""Return the solid fraction at the end of a path to a strain or to a solid fraction.
+
+    .. math:: \phi = \phi_0/(1-\epsilon_l)^3 = \phi_0/(1-\epsilon_v)
+
+    Parameters
+    ----------
+    initial_solid_fraction : float
+        phi_0 [-].
+    target : {"edge_reduction", "volume_reduction", "solid_fraction"}
+    value : float
+        [-]
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> round(final_solid_fraction(0.16, "edge_reduction", 0.4), 6)
+    0.740741
+    """
+    if target == "edge_reduction":
+        return initial_solid_fraction / (1.0 - value) ** 3
+    if target == "volume_reduction":
+        return initial_solid_fraction / (1.0 - value)
+    return value
+
+
+def loaded_solid_fraction(initial_solid_fraction, loading):
+    """Return the solid fraction at the end of a loading, or about what a stress leads to.
+
+    Parameters
+    ----------
+    initial_solid_fraction : float
+        [-]
+    loading : dict
+        The config section.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> loaded_solid_fraction(0.16, {"target": "mean_stress", "value": [1e6]})
+    0.64
+    """
+    if loading["target"] == "mean_stress":
+        return _LOADED
+    return final_solid_fraction(initial_solid_fraction, loading["target"], loading["value"])
+
+
+def stresses(mean_stress):
+    """Return the increasing mean stresses of a config key: a number, a list, or a range.
+
+    Parameters
+    ----------
+    mean_stress : float, list of float, or dict with from, to and states
+        [Pa]; a range is even in the logarithm.
+
+    Returns
+    -------
+    list of float
+        [Pa]
+
+    Examples
+    --------
+    >>> stresses({"from": 1.0, "to": 100.0, "states": 3})
+    [1.0, 10.0, 100.0]
+    """
+    if isinstance(mean_stress, dict):
+        stress = np.geomspace(mean_stress["from"], mean_stress["to"], mean_stress["states"])
+        return [float(value) for value in stress]
+    return [float(value) for value in np.atleast_1d(mean_stress)]
+
+
+def loading_targets(radii, initial_solid_fraction, loading):
+    """Return what the states of a path are reached by: `edge` [m] or `stress` [Pa], and how many.
+
+    Parameters
+    ----------
+    radii : array_like, shape (N,)
+        [m]
+    initial_solid_fraction : float
+        Of the loose packing [-].
+    loading : dict
+        The config section.
+
+    Returns
+    -------
+    control : {"edge", "stress"}
+    targets : list of float
+        In the order of the path; with unloading the same ones back, but for the last.
+
+    Examples
+    --------
+    >>> loading = {"target": "solid_fraction", "value": 0.7, "states": 2, "unloading": True,
+    ...            "approach_solid_fraction": 0.5}
+    >>> control, edges = loading_targets([1.0], 0.1, loading)
+    >>> control, [round(edge, 4) for edge in edges]
+    ('edge', [1.9232, 1.8155, 1.9232])
+    """
+    if loading["target"] == "mean_stress":
+        control, targets = "stress", stresses(loading["value"])
+    else:
+        end = final_solid_fraction(initial_solid_fraction, loading["target"], loading["value"])
+        first = cube_edge(radii, loading["approach_solid_fraction"])
+        last, states = cube_edge(radii, end), loading["states"]
+        control = "edge"
+        targets = [first + (last - first) * k / states for k in range(1, states + 1)]
+    return control, targets + (targets[-2::-1] if loading["unloading"] else [])
+
+
+def strain_step(quality, refinement=1):
+    """Return the largest linear strain of a step, of a quality or refined by a factor [-].
+
+    Examples
+    --------
+    >>> strain_step("draft", 2)
+    0.0034
+    """
+    return STRAIN_STEPS[quality] / refinement
+
+
+def expected_overlap_ratio(mean_stress, radius, law):
+    r"""Return about how deep grains of one radius are pressed together under a mean stress.
+
+    .. math:: F = \frac{4 \pi P R^2}{\phi \kappa}, \quad \phi = 0.64,\ \kappa = 6
+
+    Parameters
+    ----------
+    mean_stress : float
+        [Pa]
+    radius : float
+        [m]
+    law : contact_law.LinearContact or HertzContact
+
+    Returns
+    -------
+    float
+        Overlap over radius [-].
+
+    Examples
+    --------
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> round(expected_overlap_ratio(1e6, 1e-3, LinearContact(1e6)), 5)
+    0.00327
+    """
+    force = 4.0 * np.pi * mean_stress * radius**2 / (0.64 * 6.0)
+    at_one_radius = law.force(radius, radius / 2.0)
+    return float((force / at_one_radius) ** (1.0 / law.exponent))
+
+
+def planned_steps(loading, initial_solid_fraction, strain_step, overlap=0.0):
+    """Return how many strain steps a loading takes, and how many states it saves.
+
+    To strains both are known. To stresses it is an estimate: as far as grains of an overlap
+    ratio would go, and some steps more to meet each stress.
+
+    Parameters
+    ----------
+    loading : dict
+        The config section.
+    initial_solid_fraction : float
+        [-]
+    strain_step : float
+        Largest linear strain of a step [-].
+    overlap : float
+        Expected at the largest stress, over the radius [-].
+
+    Returns
+    -------
+    steps, states : int
+
+    Examples
+    --------
+    >>> loading = {"target": "edge_reduction", "value": 0.4, "states": 15, "unloading": False,
+    ...            "approach_solid_fraction": 0.55}
+    >>> planned_steps(loading, 0.16, 1.7e-3)
+    (60, 15)
+    """
+    end = loaded_solid_fraction(initial_solid_fraction, loading)
+    strain = np.log(end / loading["approach_solid_fraction"]) / 3.0
+    if loading["target"] == "mean_stress":
+        states = len(loading["value"])
+        steps = int(np.ceil(max(strain, 0.0) / strain_step + overlap / strain_step)) + 4 * states
+    else:
+        states = loading["states"]
+        steps = int(np.ceil(strain / states / strain_step - 1e-6)) * states
+    if loading["unloading"]:
+        steps, states = 2 * steps, 2 * states - 1
+    return steps, states

@@ -1,0 +1,162 @@
+"""All samples of a study in one figure: a colour for each grading, a line for each boundary."""
+
+from itertools import takewhile
+
+import numpy as np
+from matplotlib.lines import Line2D
+
+from branchcrush.plotting.branches import PREDICTIONS
+from branchcrush.plotting.predictors import PREDICTORS
+from branchcrush.plotting.style import FAINT, axes
+from branchcrush.study.exponents import PAPER
+from branchcrush.study.findings import GOOD_DISTANCE
+
+_COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
+_LAWS = {"linear": "linear contacts", "hertz": "Hertz contacts"}
+
+
+def sample_styles(samples):
+    """Return how each sample is drawn: one colour a grading, dashed between walls, open for Hertz.
+
+    Parameters
+    ----------
+    samples : dict
+        Settings by name.
+
+    Returns
+    -------
+    dict of dict
+        grading (what the names of all samples of the grading have in common), colour, line and
+        filled, by name.
+
+    Examples
+    --------
+    >>> one = {"grading": {"form": "single"}, "boundary": "walls", "contact": {"law": "linear"}}
+    >>> sample_styles({"sand-walls": one})["sand-walls"]["grading"]
+    'sand-walls'
+    """
+    gradings = []
+    for settings in samples.values():
+        if settings["grading"] not in gradings:
+            gradings.append(settings["grading"])
+    styles = {}
+    for name, settings in samples.items():
+        number = gradings.index(settings["grading"])
+        names = [n for n, other in samples.items() if other["grading"] == settings["grading"]]
+        words = zip(*(n.split("-") for n in names), strict=False)
+        common = "-".join(word[0] for word in takewhile(lambda word: len(set(word)) == 1, words))
+        styles[name] = {
+            "grading": common or name,
+            "color": _COLOURS[number % len(_COLOURS)],
+            "line": "--" if settings["boundary"] == "walls" else "-",
+            "filled": settings["contact"]["law"] == "linear",
+            "law": settings["contact"]["law"],
+        }
+    return styles
+
+
+def plot_exponents(paths, styles, law, ax=None):
+    """Draw the exponent against the distance from jamming, of all samples of one contact law.
+
+    Parameters
+    ----------
+    paths : dict of DataFrame
+        `energy_split_path.csv` by sample.
+    styles : dict
+        From `sample_styles`.
+    law : str
+        linear or hertz.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    top = PAPER
+    for name, path in paths.items():
+        style = styles[name]
+        if style["law"] != law:
+            continue
+        # Where hardly a contact is, the interval says nothing and would hide the others.
+        path = path[(path["exponent_high"] - path["exponent_low"]).fillna(0.0) < 2.0]
+        x = path["solid_fraction_above_jamming"]
+        top = max(top, path["exponent"].max())
+        ax.plot(x, path["exponent"], style["line"], color=style["color"])
+        low, high = path["exponent_low"], path["exponent_high"]
+        ax.fill_between(x, low, high, color=style["color"], alpha=0.12, lw=0)
+    ax.axhline(PAPER, color="black", ls=":", lw=1.0)
+    ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
+    ax.set(title=_LAWS[law], ylim=(0, 1.45 * top))
+    shown = {n: s for n, s in styles.items() if n in paths and s["law"] == law}
+    paper = Line2D([], [], color="black", ls=":", label="the paper's n = 3")
+    ax.legend(
+        handles=[*legend_handles(shown, lines=True), paper],
+        loc="upper center",
+        ncols=3,
+        handlelength=1.5,
+        columnspacing=1.0,
+    )
+    return ax
+
+
+def plot_samples(rows, kind, ax=None):
+    """Draw one number of every prediction, a row a sample.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        `findings.csv`.
+    kind : str
+        lengths: distance of the predicted branch lengths near jamming; energies: deviance that
+        the predictors explain at the end, on seeds left out.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    column, looks = {
+        "lengths": ("ks_{}_near", PREDICTIONS),
+        "energies": ("explained_{}_end", PREDICTORS),
+    }[kind]
+    places = np.arange(len(rows))
+    for name, (label, color, marker) in looks.items():
+        if column.format(name) in rows:
+            ax.plot(
+                rows[column.format(name)], places, marker, ls="", color=color, label=label, ms=4
+            )
+    ax.set_yticks(places, rows["sample"])
+    ax.invert_yaxis()
+    ax.grid(axis="y", color="#eeeeee")
+    if kind == "lengths":
+        ax.axvline(GOOD_DISTANCE, color=FAINT, lw=0.8, ls="--", label=f"{GOOD_DISTANCE:g}")
+        ax.set(xscale="log", xlabel="Kolmogorov-Smirnov distance near jamming [-]")
+    else:
+        ax.set(xlabel="deviance explained on seeds left out, at the end [-]")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncols=2)
+    return ax
+
+
+def legend_handles(styles, lines=False):
+    """Return what a legend shows: a colour for each grading, and the boundaries where they vary.
+
+    Parameters
+    ----------
+    styles : dict
+        From `sample_styles`.
+    lines : bool
+        Whether the boundaries are to be told.
+
+    Returns
+    -------
+    list of Line2D
+    """
+    colours = {style["grading"]: style["color"] for style in styles.values()}
+    marks = [Line2D([], [], color=color, label=name) for name, color in colours.items()]
+    kinds = {style["line"] for style in styles.values()}
+    if lines and len(kinds) > 1:
+        marks.append(Line2D([], [], color="black", ls="-", label="periodic"))
+        marks.append(Line2D([], [], color="black", ls="--", label="walls"))
+    return marks

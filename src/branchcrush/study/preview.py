@@ -1,0 +1,137 @@
+"""What a study will be, cost and take, before it runs."""
+
+import math
+from typing import NamedTuple
+
+from branchcrush.gradings.curves import grading_summary
+from branchcrush.gradings.representativity import representativity
+from branchcrush.loading.targets import (
+    expected_overlap_ratio,
+    loaded_solid_fraction,
+    planned_steps,
+)
+
+# Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
+# to strains and to stresses: a stress is sought among packings at rest. A packing may need half or
+# twice as many.
+_TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
+# Grains between which a strain has to travel: evaluations grow about so with their number.
+_GROWTH = 1.0 / 3.0
+# Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
+_BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
+_FLAGGED_OVERLAP = 0.05
+
+
+class Plan(NamedTuple):
+    """What a sample will be and cost; all seeds where it says so."""
+
+    grains: int
+    seeds: int
+    ranks: int
+    first_edge: float  # [m]
+    last_edge: float  # [m]
+    smallest_diameter: float  # [m]
+    largest_diameter: float  # [m]
+    force_evaluations: float  # of one packing
+    seconds: float  # of one core, all seeds and refined ones together
+    memory: float  # of one job [bytes]
+    warnings: list
+
+
+def sample_plan(sample, refined, grading, law, seconds_per_grain):
+    """Return what a sample will be and cost.
+
+    Parameters
+    ----------
+    sample : dict
+        Its settings.
+    refined : int
+        How many seeds run again with twice the strain steps.
+    grading : Grading
+    law : contact_law.LinearContact or HertzContact
+    seconds_per_grain : float
+        That a force evaluation takes on this machine [s].
+
+    Returns
+    -------
+    Plan
+    """
+    grains, loading = sample["grains"], sample["loading"]
+    start = sample["initial_solid_fraction"]
+    solid = 4.0 / 3.0 * math.pi * grading.moment(3) * grains
+    end = loaded_solid_fraction(start, loading)
+    standing = representativity(grading, grains, end)
+    warnings = [] if standing.verdict == "accept" else [standing.message]
+    overlap = 0.0
+    if loading["target"] == "mean_stress":
+        overlap = expected_overlap_ratio(loading["value"][-1], float(grading.mass_ppf(0.5)), law)
+        if overlap > _FLAGGED_OVERLAP:
+            warnings.append(
+                f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
+                f"{_FLAGGED_OVERLAP:.0%}; ask for less stress or raise the stiffness"
+            )
+    steps, states = planned_steps(loading, start, sample["strain_step"], overlap)
+    step, state = _TO_STRESS if loading["target"] == "mean_stress" else _TO_STRAIN
+    evaluations = (step * steps + state * states) * (grains / 1000.0) ** _GROWTH
+    packings = len(sample["seeds"]) + 2.0 * refined
+    summary = grading_summary(grading)
+    return Plan(
+        grains=grains,
+        seeds=len(sample["seeds"]),
+        ranks=sample["ranks"],
+        first_edge=(solid / start) ** (1.0 / 3.0),
+        last_edge=(solid / end) ** (1.0 / 3.0),
+        smallest_diameter=summary["D_min_m"],
+        largest_diameter=summary["D_max_m"],
+        force_evaluations=evaluations,
+        seconds=packings * evaluations * grains * seconds_per_grain,
+        memory=_BASE * sample["ranks"] + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
+        warnings=warnings,
+    )
+
+
+def preview_text(plans, cores, time_step):
+    """Return the plans of all samples as text for a person.
+
+    Parameters
+    ----------
+    plans : dict of Plan
+        By sample.
+    cores : int
+        That will be used.
+    time_step : str
+        Of in.compress, over its time scale.
+
+    Returns
+    -------
+    str
+    """
+    lines, longest = [], 0.0
+    for name, plan in plans.items():
+        # Ranks of a packing keep as many cores busy, as many packings at a time as fit.
+        ranks = min(plan.ranks, cores)
+        minutes = plan.seconds / 60.0 / min(cores // ranks * ranks, plan.seeds * ranks)
+        if plan.ranks > cores:
+            warning = f"ranks {plan.ranks}, and {cores} core(s): {cores} are started"
+            plan = plan._replace(warnings=[*plan.warnings, warning])
+        longest = max(longest, minutes)
+        lines += [
+            f"{name}",
+            f"  grains              {plan.grains}, seeds {plan.seeds}",
+            f"  diameters           {plan.smallest_diameter:.4g} to {plan.largest_diameter:.4g} m",
+            f"  edge of the box     {plan.first_edge:.4g} m, at the end about "
+            f"{plan.last_edge:.4g} m ({plan.last_edge / plan.largest_diameter:.3g} diameters)",
+            f"  time step           {time_step} sqrt(m/k), of fictitious masses: not set by the "
+            "smallest grain",
+            f"  force evaluations   about {plan.force_evaluations:,.0f} a packing".replace(
+                ",", " "
+            ),
+            f"  time                about {minutes:.1f} minutes on {cores} core(s) of this "
+            "machine, half or twice as long",
+            f"  memory              about {plan.memory / 1e9:.1f} GB a job",
+            *(f"  warning             {warning}" for warning in plan.warnings),
+            "",
+        ]
+    total = max(longest, sum(plan.seconds for plan in plans.values()) / 60.0 / cores)
+    lines.append(f"all samples: about {total:.1f} minutes on {cores} core(s)")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,181 @@
+"""Sections of the configuration that describe a grading: what is valid, and what is refused how."""
+
+from copy import deepcopy
+
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+from branchcrush.config.fields import Section
+from branchcrush.config.gradings import GradingSection
+from branchcrush.config.messages import problem
+from branchcrush.files.grading_tables import grading_of
+
+SIZES = {"size": "diameter", "unit": "mm"}
+ENDS = {**SIZES, "basis": "mass", "min": 0.5, "max": 4.0}
+VALID = {
+    "uniform": ENDS,
+    "loguniform": ENDS,
+    "normal": {**ENDS, "mean": 2.0, "standard_deviation": 0.5},
+    "lognormal": {**ENDS, "median": 2.0, "geometric_standard_deviation": 1.5},
+    "weibull": {**ENDS, "scale": 2.0, "shape": 1.5},
+    "fractal": {**ENDS, "basis": "number", "alpha": 2.6},
+    "fuller": {**ENDS, "exponent": 0.5},
+    "single": {**SIZES, "value": 2.0},
+    "sieve": {**SIZES, "basis": "mass", "file": "sand.csv", "min": None, "max": 3.0},
+    "density": {**SIZES, "basis": "number", "file": "sand.csv", "min": 1.0, "max": None},
+    "radii": {**SIZES, "basis": "number", "file": "sand.csv"},
+}
+VALID = {form: {"form": form, **keys} for form, keys in VALID.items()}
+VALID["mixture"] = {
+    "form": "mixture",
+    "basis": "number",
+    "components": [
+        {"weight": 1.0, "grading": VALID["single"]},
+        {"weight": 2.0, "grading": VALID["sieve"]},
+    ],
+}
+every_form = pytest.mark.parametrize("form", VALID)
+# Gradings that have no file to read.
+FORMULAS = [form for form in VALID if form not in ("sieve", "density", "radii", "mixture")]
+
+
+class Root(Section):
+    grading: GradingSection
+
+
+def checked(section):
+    return Root.model_validate({"grading": section}).grading
+
+
+def section_with(form, **keys):
+    """Return a valid section but for some keys; None leaves one out."""
+    section = {**deepcopy(VALID[form]), **keys}
+    return {key: value for key, value in section.items() if value is not None}
+
+
+def message_of(section):
+    with pytest.raises(ValidationError) as refused:
+        checked(section)
+    (detail,) = refused.value.errors()
+    return problem(detail, Root)
+
+
+# --- valid ---------------------------------------------------------------------------------------
+
+
+@every_form
+def test_every_form_is_valid_and_plain_again(form):
+    section = checked(VALID[form])
+    assert section.form == form
+    assert section.model_dump() == VALID[form]
+    assert TypeAdapter(GradingSection).validate_python(section.model_dump()) == section
+
+
+@pytest.mark.parametrize("form", FORMULAS)
+def test_every_formula_makes_a_grading_of_its_sizes(form):
+    section = checked(VALID[form]).model_dump()
+    smallest, largest = grading_of(section).support()
+    expected = (1e-3, 1e-3) if form == "single" else (0.25e-3, 2e-3)
+    assert (smallest, largest) == pytest.approx(expected, rel=1e-14)
+
+
+def test_bounds_of_a_table_may_be_left_out():
+    for form in ("sieve", "density"):
+        section = checked(section_with(form, min=None, max=None))
+        assert (section.min, section.max) == (None, None)
+
+
+def test_centre_of_a_distribution_may_lie_outside_its_bounds():
+    assert checked(section_with("normal", mean=5.0)).mean == 5.0
+
+
+# --- refused -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("form", "key"), [(form, key) for form in VALID for key in VALID[form] if key != "form"]
+)
+def test_every_key_but_the_bounds_of_a_table_is_required(form, key):
+    if form in ("sieve", "density") and key in ("min", "max"):
+        return
+    assert message_of(section_with(form, **{key: None})).startswith(f"grading.{key}: missing")
+
+
+@every_form
+def test_unknown_key_is_refused(form):
+    assert message_of(section_with(form, radius_max=1.0)).startswith("grading.radius_max: unknown")
+
+
+def test_unknown_form_is_refused_with_all_forms():
+    message = message_of({**VALID["uniform"], "form": "gaussian"})
+    assert message.startswith("grading.form = 'gaussian'")
+    assert all(f"'{form}'" in message for form in VALID)
+
+
+@pytest.mark.parametrize(
+    ("form", "keys", "expected"),
+    [
+        ("uniform", {"unit": "cm"}, "grading.unit = 'cm'"),
+        ("uniform", {"size": "width"}, "grading.size = 'width'"),
+        ("uniform", {"basis": "volume"}, "grading.basis = 'volume'"),
+        ("fractal", {"basis": "mass"}, "grading.basis = 'mass'"),
+        ("fuller", {"basis": "number"}, "grading.basis = 'number'"),
+        ("sieve", {"basis": "number"}, "grading.basis = 'number'"),
+        ("radii", {"basis": "mass"}, "grading.basis = 'mass'"),
+        ("sieve", {"size": "radius"}, "grading.size = 'radius'"),
+        ("single", {"basis": "mass"}, "grading.basis: unknown key"),
+        ("single", {"value": 0.0}, "grading.value = 0"),
+        ("uniform", {"min": -1.0}, "grading.min = -1"),
+        ("uniform", {"max": float("inf")}, "grading.max = inf"),
+        ("normal", {"mean": 0.0}, "grading.mean = 0"),
+        ("normal", {"standard_deviation": 0.0}, "grading.standard_deviation = 0"),
+        ("lognormal", {"geometric_standard_deviation": 1.0}, "grading.geometric_standard_dev"),
+        ("weibull", {"shape": 0.0}, "grading.shape = 0"),
+        ("fractal", {"alpha": 0.0}, "grading.alpha = 0"),
+        ("fuller", {"exponent": 0.0}, "grading.exponent = 0"),
+        ("radii", {"file": ""}, "grading.file = ''"),
+    ],
+)
+def test_value_out_of_its_range_is_refused(form, keys, expected):
+    assert message_of(section_with(form, **keys)).startswith(expected)
+
+
+@pytest.mark.parametrize(
+    "form", [form for form in VALID if "min" in VALID[form] and form != "single"]
+)
+@pytest.mark.parametrize(("low", "high"), [(3.0, 2.0), (2.0, 2.0)])
+def test_bounds_in_the_wrong_order_are_named_with_their_unit(form, low, high):
+    message = message_of(section_with(form, min=low, max=high))
+    assert message == f"grading.max = 2 mm: must be above min {low:g} mm"
+
+
+@pytest.mark.parametrize(
+    ("form", "keys", "words"),
+    [
+        ("normal", {"mean": 9.0, "standard_deviation": 0.1}, ["mean 9 mm", "_deviation = 0.1 mm"]),
+        ("lognormal", {"median": 900.0}, ["median 900 mm", "geometric_standard_deviation = 1.5:"]),
+        ("weibull", {"scale": 0.001}, ["scale 0.001 mm", "shape = 1.5:"]),
+    ],
+)
+def test_bounds_that_miss_the_distribution_are_refused(form, keys, words):
+    message = message_of(section_with(form, **keys))
+    for word in [*words, "min 0.5 mm", "max 4 mm", "at least 1e-06"]:
+        assert word in message
+
+
+def test_mixture_needs_two_parts_with_weights_and_holds_no_other():
+    part = VALID["mixture"]["components"][0]
+    message = message_of(section_with("mixture", components=[part]))
+    assert message.startswith("grading.components = [{weight: 1, ")
+    assert message.endswith("must be a list of 2 or more, each with a weight and a grading")
+    for wrong, place in (
+        ({**part, "weight": 0.0}, "weight"),
+        ({**part, "grading": VALID["mixture"]}, "grading"),
+        ({"weight": 1.0}, "grading"),
+        ({**part, "grading": section_with("single", unit=None)}, "unit"),
+    ):
+        with pytest.raises(ValidationError) as refused:
+            checked(section_with("mixture", components=[part, wrong]))
+        (detail,) = refused.value.errors()
+        assert detail["loc"][:4] == ("grading", "mixture", "components", 1)
+        assert detail["loc"][-1] == place

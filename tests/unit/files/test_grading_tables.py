@@ -1,0 +1,348 @@
+"""Files of gradings: what people and machines write is read, and what is wrong in them is named."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from branchcrush.config.gradings import grading_data_files
+from branchcrush.errors import GradingError
+from branchcrush.files.grading_tables import (
+    grading_of,
+    read_density_table,
+    read_radii,
+    read_sieve_table,
+)
+
+OPENING, PERCENT = [0.063, 0.5, 2.0, 8.0], [0.0, 12.5, 60.0, 100.0]
+PLAIN = "0.063,0\n0.5,12.5\n2,60\n8,100\n"
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Return a function that writes text or bytes to a file and returns its path."""
+
+    def write(content, name="sand.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write
+
+
+def problems_of(read, path, *arguments):
+    with pytest.raises(GradingError) as refused:
+        read(path, *arguments)
+    lines = str(refused.value).split("\n")
+    assert all(line.startswith(str(path)) for line in lines), lines
+    return [line.removeprefix(str(path)).lstrip(",: ") for line in lines]
+
+
+# --- read ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        PLAIN,
+        PLAIN.rstrip("\n"),
+        "opening_mm,percent_finer\n" + PLAIN,
+        "opening,percent finer\nmm,%\n" + PLAIN,
+        "Sieve 4, ISO 3310\n" + PLAIN,
+        "# of the river, 2019\n\n" + PLAIN + "\n\n# the end\n",
+        PLAIN.replace("12.5", "12.5  # weighed twice"),
+        "\ufeff" + PLAIN,
+        b"\xef\xbb\xbfopening,finer\n" + PLAIN.encode(),
+        ("\ufeff" + PLAIN).encode("utf-16-le"),
+        PLAIN.replace("\n", "\r\n"),
+        PLAIN.replace("\n", "\r"),
+        PLAIN.replace(",", ";"),
+        PLAIN.replace(",", ";").replace(".", ","),
+        "Öffnung [µm];Durchgang\n" + PLAIN.replace(",", "; ").replace(".", ","),
+        PLAIN.replace(",", "\t"),
+        PLAIN.replace(",", "   "),
+        PLAIN.replace(",", ", "),
+        "  " + PLAIN.replace("\n", "  \n  "),
+        PLAIN.replace("\n", ",,\n"),
+        PLAIN.replace("\n", ";;\n").replace(",", ";").replace(";;;", ";;"),
+        '"0.063","0"\n"0.5","12.5"\n"2","60"\n"8","100"\n',
+        "8,100\n2,60\n0.5,12.5\n0.063,0\n",
+        "0.063,0\n8,100\n0.5,12.5\n2,60\n",
+        PLAIN + "2,60\n2.0,60.0\n",
+        "6.3e-2,0\n5E-1,12.5\n2,60\n8,1e2\n",
+    ],
+)
+def test_every_usual_way_to_write_a_table_is_read(written, content):
+    opening, percent = read_sieve_table(written(content))
+    assert_array_equal(opening, OPENING)
+    assert_array_equal(percent, PERCENT)
+
+
+def test_level_part_of_a_curve_is_no_mistake(written):
+    _, percent = read_sieve_table(written("1,0\n2,40\n4,40\n8,100\n"))
+    assert percent.tolist() == [0, 40, 40, 100]
+
+
+def test_curve_that_is_cut_need_not_run_to_its_ends(written):
+    path = written("0.1,5\n1,50\n4,95\n")
+    assert read_sieve_table(path, 0.1, 4.0)[0].tolist() == [0.1, 1.0, 4.0]
+    assert read_sieve_table(path, 0.5, 3.0)[1].tolist() == [5.0, 50.0, 95.0]
+
+
+def test_density_table_is_sorted(written):
+    size, density = read_density_table(written("size;density\n2;0,5\n1;3\n4;0\n1;3\n"))
+    assert (size.tolist(), density.tolist()) == ([1, 2, 4], [3, 0.5, 0])
+
+
+def test_every_line_of_radii_is_a_grain(written):
+    radii = read_radii(written("radius\n2\n1.5\n2  # again\n\n1\n"))
+    assert radii.tolist() == [1.0, 1.5, 2.0, 2.0]
+
+
+# --- refused: the file ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("read", [read_sieve_table, read_density_table, read_radii])
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("", ["empty", "one row of numbers on each line"]),
+        (" \n\t\r\n", ["empty"]),
+        (b"PK\x03\x04\x00\x00\x08\x00", ["no text in UTF-8", "save the table as CSV"]),
+        (b"\x89PNG\r\n\x1a\n", ["no text in UTF-8"]),
+        ("Öffnung;Durchgang\n1;2\n".encode("cp1252"), ["no text in UTF-8"]),
+    ],
+)
+def test_file_without_text_is_refused(written, read, content, words):
+    (message,) = problems_of(read, written(content))
+    for word in words:
+        assert word in message
+
+
+@pytest.mark.parametrize("read", [read_sieve_table, read_density_table, read_radii])
+def test_missing_file_and_folder_are_refused(tmp_path, read):
+    (message,) = problems_of(read, tmp_path / "none.csv")
+    assert "no such file" in message and "relative" in message
+    (message,) = problems_of(read, tmp_path)
+    assert "folder" in message
+
+
+@pytest.mark.parametrize("content", ["# nothing\n", "opening,finer\n", "one two three\n"])
+def test_file_without_numbers_is_refused(written, content):
+    for read in (read_sieve_table, read_density_table, read_radii):
+        (message,) = problems_of(read, written(content))
+        assert message.startswith("line 1: no ") and "numbers" in message
+
+
+# --- refused: its lines --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("1,0\n", ["line 1: one row", "two or more"]),
+        ("h,h\n1,0\n1,0\n", ["line 2: one row", "two or more"]),
+        ("1,0\n2,50,7\n4,100\n", ["line 2: 3 columns, 2 | 50 | 7", "opening, percent finer"]),
+        ("1,0\n2\n4,100\n", ["line 2: 1 column, 2;", "must have 2"]),
+        ("0,5 1,5 0\n8 1 9\n", ["line 1: 3 columns", "Decimal commas need semicolons"]),
+        ("0,5 0\n8,1 100\n", ["line 1: percent finer = '5 0'", "Decimal commas need semicolons"]),
+        ("0,5\t0\n8,1\t100\n", ["line 1: opening = '0,5'", "Decimal commas need semicolons"]),
+        ("1,0\n2,abc\n4,100\n", ["line 2: percent finer = 'abc'", "no finite number"]),
+        ("1,0\nx,50\n4,100\n", ["line 2: opening = 'x'", "no finite number"]),
+        ("1,zero\n4,100\n", ["line 1: percent finer = 'zero'"]),
+        ("1,0\n2,nan\n4,100\n", ["line 2: percent finer = 'nan'"]),
+        ("1,0\n2,50\ninf,100\n", ["line 3: opening = 'inf'"]),
+        ("1,0\n2,\n4,100\n", ["line 2: 1 column"]),
+        ("1,0\n,50\n4,100\n", ["line 2: opening = ''"]),
+        ("1,0\n1_000,100\n", ["line 2: opening = '1_000'"]),
+        ("0,0\n1,50\n2,100\n", ["line 1: opening = 0;", "above 0"]),
+        ("-1,0\n1,0\n2,100\n", ["line 1: opening = -1;", "above 0"]),
+        ("1,-5\n2,0\n4,100\n", ["line 1: percent finer = -5;", "between 0 and 100"]),
+        ("1,0\n2,50\n4,100.5\n8,100\n", ["line 3: percent finer = 100.5;", "between 0 and 100"]),
+        (
+            "# x\n1,0\n2,50\n4,30\n8,100\n",
+            ["line 4: percent finer = 30 at opening 4", "50", "line 3", "not fall"],
+        ),
+        ("1,0\n2,50\n2,60\n4,100\n", ["line 3: opening 2", "= 60", "50 on line 2"]),
+        ("1,5\n4,100\n", ["line 1: percent finer = 5", "below 1, and 0", "set min to 1"]),
+        ("1,0\n4,90\n", ["line 2: percent finer = 90", "above 4, and 100", "set max to 4"]),
+        ("1,0\n4,1.0\n", ["line 2", "fractions", "by 100"]),
+    ],
+)
+def test_wrong_sieve_table_is_refused_with_line_value_and_remedy(written, content, expected):
+    messages = problems_of(read_sieve_table, written(content))
+    if "Decimal" not in expected[-1]:
+        assert len(messages) == 1, messages
+    for words in expected:
+        assert words in messages[0]
+
+
+def test_all_problems_of_a_file_are_told_at_once(written):
+    content = "h,h\n0,0\n1,x\n2,150\n3,1,1\n4,60\n5,50\n4,70\n"
+    messages = problems_of(read_sieve_table, written(content))
+    lines = sorted(message.split(":")[0] for message in messages)
+    assert lines == [f"line {n}" for n in (2, 3, 4, 5, 7, 8)]
+
+
+def test_both_ends_of_a_curve_are_told_at_once(written):
+    messages = problems_of(read_sieve_table, written("1,5\n4,90\n"))
+    assert [message[:6] for message in messages] == ["line 1", "line 2"]
+
+
+def test_many_problems_are_counted(written):
+    messages = problems_of(read_radii, written("1\n" + "x\n" * 1000))
+    assert len(messages) == 21
+    assert messages[-1] == "and 980 more problems"
+
+
+def test_bounds_beside_a_curve_are_refused(written):
+    path = written(PLAIN)
+    (message,) = problems_of(read_sieve_table, path, 8.0, None)
+    assert "min = 8 must be below the largest size 8" in message
+    (message,) = problems_of(read_sieve_table, path, None, 0.01)
+    assert "max = 0.01 must be above the smallest size 0.063" in message
+    # Below a curve that does not start at 0, a bound does not help.
+    (message,) = problems_of(read_sieve_table, written("1,5\n4,100\n"), 0.5, None)
+    assert "set min to 1 or more" in message
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("1,1\n2,-3\n", ["line 2: density = -3;", "not be negative"]),
+        ("1,0\n2,0\n", ["lines 1 to 2", "every density = 0", "above 0"]),
+        ("1,1\n0,3\n2,1\n", ["line 2: size = 0;", "above 0"]),
+        ("1,1\n1,3\n2,1\n", ["line 2: size 1 has density = 3", "1 on line 1"]),
+        ("1,1\n", ["one row"]),
+        ("1,1\n2,inf\n", ["line 2: density = 'inf'"]),
+    ],
+)
+def test_wrong_density_table_is_refused(written, content, expected):
+    (message,) = problems_of(read_density_table, written(content))
+    for words in expected:
+        assert words in message
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ("1\n0\n", "line 2: size = 0;"),
+        ("1\n-2\n", "line 2: size = -2;"),
+        ("1\n2,5\n", "line 2: 2 columns"),
+        ("1\nnan\n", "line 2: size = 'nan'"),
+        ("1\ntwo\n", "line 2: size = 'two'"),
+    ],
+)
+def test_wrong_radii_are_refused(written, content, expected):
+    (message,) = problems_of(read_radii, written(content))
+    assert message.startswith(expected)
+
+
+# --- the grading of a section --------------------------------------------------------------------
+
+MM = {"size": "radius", "unit": "mm"}
+ENDS = {**MM, "min": 1.0, "max": 4.0}
+SECTIONS = [
+    {"form": "uniform", "basis": "mass", **ENDS},
+    {"form": "loguniform", "basis": "number", **ENDS},
+    {"form": "normal", "basis": "mass", "mean": 2.0, "standard_deviation": 0.5, **ENDS},
+    {
+        "form": "lognormal",
+        "basis": "number",
+        "median": 2.0,
+        "geometric_standard_deviation": 1.5,
+        **ENDS,
+    },
+    {"form": "weibull", "basis": "mass", "scale": 2.0, "shape": 1.5, **ENDS},
+    {"form": "fractal", "basis": "number", "alpha": 2.6, **ENDS},
+    {"form": "fuller", "basis": "mass", "exponent": 0.5, **ENDS},
+    {"form": "single", "value": 2.0, **MM},
+]
+SIZES = {"min", "max", "mean", "standard_deviation", "median", "scale", "value"}
+any_section = pytest.mark.parametrize("section", SECTIONS, ids=[s["form"] for s in SECTIONS])
+
+
+@any_section
+@pytest.mark.parametrize(("unit", "factor"), [("m", 1e-3), ("um", 1e3)])
+@pytest.mark.parametrize(("size", "times"), [("radius", 1.0), ("diameter", 2.0)])
+def test_unit_and_size_say_how_to_read_the_numbers(section, unit, factor, size, times):
+    same = {
+        key: value * factor * times if key in SIZES else value for key, value in section.items()
+    }
+    grading, other = grading_of(section), grading_of({**same, "unit": unit, "size": size})
+    radius = np.linspace(1e-3, 4e-3, 12)
+    assert_allclose(other.support(), grading.support(), rtol=1e-14)
+    assert_allclose(other.mass_cdf(radius + 1e-9), grading.mass_cdf(radius + 1e-9), atol=1e-12)
+    assert_allclose(other.moment(3), grading.moment(3), rtol=1e-12)
+
+
+def test_basis_is_taken_from_the_section():
+    sections = [{**SECTIONS[0], "basis": basis} for basis in ("number", "mass")]
+    by_number, by_mass = (grading_of(section) for section in sections)
+    assert_allclose([by_number.number_cdf(2.5e-3), by_mass.mass_cdf(2.5e-3)], 0.5, rtol=1e-12)
+
+
+def test_sieve_file_gives_diameters(written):
+    section = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm"}
+    grading = grading_of({**section, "file": str(written(PLAIN)), "min": None, "max": None})
+    assert_allclose(grading.mass_cdf(np.array(OPENING) / 2000), np.array(PERCENT) / 100, atol=1e-12)
+    cut = grading_of({**section, "file": str(written(PLAIN)), "min": 0.5, "max": 2.0})
+    assert_allclose(cut.support(), (0.25e-3, 1e-3), rtol=1e-14)
+
+
+def test_density_file_is_by_its_basis(written):
+    path = str(written("1,1\n3,1\n"))
+    for basis in ("number", "mass"):
+        section = {"form": "density", "basis": basis, "file": path, **MM}
+        found = getattr(grading_of(section), f"{basis}_cdf")(1.5e-3)
+        assert_allclose(found, 0.25, rtol=1e-12)
+
+
+def test_radii_file_gives_its_grains(written):
+    path = str(written("2\n4\n4\n"))
+    section = {"form": "radii", "basis": "number", "file": path, "size": "diameter", "unit": "um"}
+    radii, share = grading_of(section).discrete_part
+    assert_allclose(radii, [1e-6, 2e-6], rtol=1e-14)
+    assert_allclose(share, [1 / 3, 2 / 3], rtol=1e-14)
+
+
+def test_mixture_is_made_of_sections(written):
+    sizes = [{"form": "single", "value": value, **MM} for value in (1.0, 2.0)]
+    components = [{"weight": w, "grading": g} for w, g in zip((3.0, 1.0), sizes, strict=True)]
+    grading = grading_of({"form": "mixture", "basis": "mass", "components": components})
+    assert_allclose(grading.mass_cdf(1.5e-3), 0.75, rtol=1e-14)
+    assert_allclose(grading.number_cdf(1.5e-3), 24 / 25, rtol=1e-14)
+
+
+def test_files_are_relative_to_the_working_directory(written, monkeypatch):
+    path = written(PLAIN)
+    monkeypatch.chdir(path.parent)
+    section = {
+        "form": "sieve",
+        "basis": "mass",
+        "size": "diameter",
+        "unit": "m",
+        "file": "sand.csv",
+    }
+    assert grading_of(section).support() == (0.0315, 4.0)
+
+
+def test_message_of_a_wrong_file_names_it(written):
+    path = str(written("1,0\n2,0\n4,100\n"))
+    section = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm", "file": path}
+    with pytest.raises(GradingError, match=r"sand\.csv: no grains are left"):
+        grading_of({**section, "max": 1.5})
+
+
+@pytest.mark.parametrize("section", [ENDS, {**MM, "file": "sand.csv"}])
+def test_unknown_form_is_refused(section):
+    with pytest.raises(GradingError, match="'sphere'"):
+        grading_of({**section, "form": "sphere", "basis": "mass"})
+
+
+def test_data_files_are_those_of_all_parts():
+    sieve, radii = {"form": "sieve", "file": "a.csv"}, {"form": "radii", "file": "b/c.txt"}
+    assert grading_data_files(sieve) == ["a.csv"]
+    assert grading_data_files(SECTIONS[0]) == []
+    parts = [{"weight": 1.0, "grading": part} for part in (sieve, SECTIONS[0], radii)]
+    mixture = {"form": "mixture", "basis": "mass", "components": parts}
+    assert grading_data_files(mixture) == ["a.csv", "b/c.txt"]

@@ -1,0 +1,223 @@
+"""Directions whose fabric is known, and how much of a deviator chance alone makes."""
+
+import gzip
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+from branchcrush.forces.fabric import (
+    branch_vectors,
+    chance_range,
+    deviator,
+    effective_branches,
+    expected_deviator,
+    fabric_result,
+    fabric_tensor,
+)
+from branchcrush.lammps.files import read_dump
+from branchcrush.loading.states import state_contacts
+from branchcrush.packings.contact_laws import LinearContact
+
+TRIALS, BRANCHES = 4000, 60
+
+
+def rng_of(seed=1):
+    return np.random.default_rng(seed)
+
+
+def isotropic(rng, *shape):
+    return rng.standard_normal((*shape, 3))
+
+
+def deviators(rng, weigh=None):
+    """Deviators of many samples of isotropic branches, whose lengths do not matter."""
+    weights = np.ones((TRIALS, BRANCHES)) if weigh is None else weigh(rng, (TRIALS, BRANCHES))
+    tensors = [
+        fabric_tensor(vectors, weight)
+        for vectors, weight in zip(isotropic(rng, TRIALS, BRANCHES), weights, strict=True)
+    ]
+    return deviator(tensors), weights
+
+
+# --- tensors -------------------------------------------------------------------------------------
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.integers(0, 2**32), st.integers(1, 30), st.floats(1e-6, 1e6))
+def test_a_tensor_has_trace_one_and_neither_unit_nor_sign_changes_it(seed, number, unit):
+    rng = rng_of(seed)
+    vectors, weights = isotropic(rng, number), rng.uniform(0.1, 2.0, number)
+    tensor = fabric_tensor(vectors, weights)
+    assert_allclose(np.trace(tensor), 1.0)
+    assert_allclose(tensor, tensor.T, atol=1e-15)
+    signs = rng.choice([-1.0, 1.0], (number, 1))
+    assert_allclose(fabric_tensor(unit * signs * vectors, 3.0 * weights), tensor, atol=1e-14)
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.integers(0, 2**32))
+def test_the_deviator_does_not_know_how_axes_are_turned(seed):
+    rng = rng_of(seed)
+    vectors = isotropic(rng, 20)
+    turn, _ = np.linalg.qr(rng.standard_normal((3, 3)))
+    assert_allclose(deviator(fabric_tensor(vectors @ turn)), deviator(fabric_tensor(vectors)))
+
+
+@pytest.mark.parametrize(
+    ("vectors", "expected"),
+    [
+        (np.eye(3), 0.0),
+        ([[1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]], 0.0),
+        ([[0, 0, 3.0], [0, 0, -1.0]], 1.0),
+        # In a plane, evenly: diag(1/2, 1/2, 0).
+        ([[1, 0, 0], [0, 1, 0]], 0.5),
+    ],
+)
+def test_known_directions_have_known_deviators(vectors, expected):
+    assert_allclose(deviator(fabric_tensor(vectors)), expected, atol=1e-15)
+
+
+def test_weights_count_as_repeated_branches():
+    vectors = isotropic(rng_of(), 4)
+    repeated = np.repeat(vectors, [1, 2, 3, 4], axis=0)
+    assert_allclose(fabric_tensor(vectors, [1, 2, 3, 4]), fabric_tensor(repeated))
+
+
+# --- chance --------------------------------------------------------------------------------------
+
+
+def test_mean_square_of_isotropic_tensors_is_two_thirds_over_their_number():
+    found, _ = deviators(rng_of())
+    # q^2 is about chi-square with 5 degrees of freedom over 5: its relative scatter is sqrt(2/5).
+    error = np.sqrt(0.4 / TRIALS)
+    assert_allclose(np.mean(found**2), expected_deviator(BRANCHES) ** 2, rtol=4.5 * error)
+    assert_allclose(np.mean(found**2) / 1.5, 2.0 / 3.0 / BRANCHES, rtol=4.5 * error)
+
+
+def test_one_branch_alone_has_the_deviator_expected():
+    assert_allclose(deviator(fabric_tensor(isotropic(rng_of(), 1))), expected_deviator(1))
+
+
+@pytest.mark.parametrize(
+    "weigh",
+    [
+        lambda rng, shape: rng.standard_exponential(shape),
+        lambda rng, shape: rng.lognormal(0.0, 1.0, shape),
+    ],
+)
+def test_forces_make_as_much_noise_as_fewer_equal_branches(weigh):
+    found, weights = deviators(rng_of(), weigh)
+    expected = [expected_deviator(effective_branches(BRANCHES, weight)) for weight in weights]
+    ratio = np.mean((found / expected) ** 2)
+    assert_allclose(ratio, 1.0, atol=4.5 * np.sqrt(0.4 / TRIALS))
+
+
+@pytest.mark.parametrize("seeds", [1, 4, 20])
+@pytest.mark.parametrize("confidence", [0.5, 0.95])
+def test_chance_leaves_the_range_as_often_as_it_should(seeds, confidence):
+    found, _ = deviators(rng_of(3))
+    ratio = np.sqrt(np.mean(found.reshape(-1, seeds) ** 2, axis=1)) / expected_deviator(BRANCHES)
+    low, high = chance_range(seeds, confidence)
+    for outside in (ratio < low, ratio > high):
+        rare = (1.0 - confidence) / 2.0
+        # A tenth of it more or less for the branches' being no infinite number.
+        margin = 4.0 * np.sqrt(rare * (1.0 - rare) / len(ratio)) + 0.1 * rare
+        assert abs(outside.mean() - rare) < margin
+
+
+def test_effective_number_is_at_most_the_number():
+    assert effective_branches(7) == 7.0
+    assert_allclose(effective_branches(7, np.full(7, 3.0)), 7.0)
+    assert_allclose(effective_branches(3, [1e-12, 1.0, 1e-12]), 1.0)
+
+
+# --- all of it -----------------------------------------------------------------------------------
+
+
+def sample(rng, stretch, seeds=30, branches=400):
+    vectors = isotropic(rng, seeds, branches) * [1.0, 1.0, stretch]
+    return list(vectors), list(rng.standard_exponential((seeds, branches)))
+
+
+def test_isotropic_packings_are_as_even_as_chance_and_their_mean_more():
+    rows, summary = fabric_result(*sample(rng_of(), 1.0), confidence=0.999)
+    assert [row["branches"] for row in rows] == [400] * 30
+    for kind, branches in (("branches", 400), ("forces", 200)):
+        found = summary[kind]
+        assert found["by_chance_low"] < found["deviator_over_expected"] < found["by_chance_high"]
+        # Exponential forces count half.
+        expected = 1.0 / np.sqrt(30 * branches)
+        assert_allclose(found["expected_deviator_of_mean"], expected, rtol=0.03)
+        assert found["deviator_of_mean"] < chance_range(1, 0.9999)[1] * expected
+    assert_allclose(rows[0]["expected_deviator"], 0.05)
+
+
+def test_packings_that_lean_one_way_are_less_even_and_their_mean_no_more():
+    rows, summary = fabric_result(*sample(rng_of(), 1.5))
+    for kind, key in (("branches", ""), ("forces", "force_")):
+        found = summary[kind]
+        assert found["deviator_over_expected"] > found["by_chance_high"]
+        typical = np.mean([row[f"{key}deviator"] for row in rows])
+        assert_allclose(found["deviator_of_mean"], typical, rtol=0.15)
+
+
+def test_only_forces_that_depend_on_direction_lean():
+    vectors, _ = sample(rng_of(), 1.0)
+    forces = [1.0 + vector[:, 2] ** 2 / np.sum(vector**2, axis=1) for vector in vectors]
+    _, summary = fabric_result(vectors, forces, confidence=0.999)
+    found = summary["branches"]
+    assert found["deviator_over_expected"] < found["by_chance_high"]
+    assert summary["forces"]["deviator_over_expected"] > summary["forces"]["by_chance_high"]
+    # <n n (1 + z^2)> is diag(6, 6, 8)/20.
+    assert_allclose(summary["forces"]["deviator_of_mean"], 0.1, atol=0.03)
+
+
+def test_as_many_forces_as_branches_are_needed():
+    with pytest.raises(ValueError, match="zip"):
+        fabric_result([np.eye(3)], [])
+
+
+# --- the order of LAMMPS -------------------------------------------------------------------------
+
+
+def test_vectors_come_in_the_order_of_the_contacts_whatever_that_of_the_dump(tmp_path):
+    rng = rng_of()
+    grains, radius = 40, np.full(40, 0.5)
+    places = rng.uniform(0.0, 2.0, (grains, 3))
+    first, second = np.triu_indices(grains, k=1)
+    reach = np.linalg.norm(places[first] - places[second], axis=1) < 1.0
+    pairs = rng.permuted(np.stack([first, second])[:, reach], axis=0)  # i and j in any order
+    pairs = rng.permutation(pairs, axis=1)
+    vectors = places[pairs[0]] - places[pairs[1]]
+    length = np.linalg.norm(vectors, axis=1)
+    columns = "id1 id2 branch branch_x branch_y branch_z force"
+    values = np.column_stack([pairs.T + 1, length, vectors, 1.0 - length])
+    lines = [
+        f"{int(a)} {int(b)} " + " ".join(map(repr, map(float, rest))) for a, b, *rest in values
+    ]
+    header = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n{len(lines)}\nITEM: BOX BOUNDS\n"
+    header += f"0 2\n0 2\n0 2\nITEM: ENTRIES {columns}\n"
+    with gzip.open(tmp_path / "pairs.dump.gz", "wt", encoding="ascii") as file:
+        file.write(header + "".join(f"{line} \n" for line in lines))
+
+    (frame,) = read_dump(tmp_path / "pairs.dump.gz")
+    contacts = state_contacts(frame, radius, LinearContact(1.0))
+    found = branch_vectors(frame)
+    assert len(found) > 20
+    assert not np.array_equal(np.linalg.norm(found, axis=1), length)
+    assert_allclose(np.linalg.norm(found, axis=1), contacts["branch_length_m"])
+    expected = places[contacts["i"]] - places[contacts["j"]]
+    assert_allclose(found * np.sign(np.sum(found * expected, axis=1))[:, None], expected)
+    assert_array_equal(
+        fabric_tensor(found, contacts["normal_force_N"]).round(12),
+        fabric_tensor(vectors, 1.0 - length).round(12),
+    )
+
+
+def test_two_contacts_of_the_same_two_grains_come_by_length():
+    frame = {"id1": [2, 1], "id2": [1, 2], "branch": [2.0, 1.0]}
+    frame |= {"branch_x": [2.0, 0.0], "branch_y": [0.0, 1.0], "branch_z": [0.0, 0.0]}
+    assert branch_vectors(frame).tolist() == [[0.0, 1.0, 0.0], [2.0, 0.0, 0.0]]

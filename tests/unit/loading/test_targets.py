@@ -1,0 +1,101 @@
+"""What a compression is asked for: targets in order, and steps small enough."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from branchcrush.loading.targets import (
+    STRAIN_STEPS,
+    STRAIN_TARGETS,
+    final_solid_fraction,
+    loading_targets,
+    strain_step,
+    stresses,
+)
+from branchcrush.packings.placement import cube_edge
+
+RADII = np.array([1.0, 0.5, 0.25])
+
+
+def loading(target, value, *, states=4, unloading=False, approach=0.3):
+    return {
+        "target": target,
+        "value": value,
+        "states": states,
+        "unloading": unloading,
+        "approach_solid_fraction": approach,
+    }
+
+
+@given(st.floats(0.01, 0.3), st.floats(0.01, 0.5))
+def test_the_three_ways_to_tell_the_end_of_a_path_agree(initial, edge_reduction):
+    by_edge = final_solid_fraction(initial, "edge_reduction", edge_reduction)
+    # The solid volume stays; the cell's is that of the shrunk cube.
+    assert_allclose(by_edge * (1 - edge_reduction) ** 3, initial, rtol=1e-13)
+    by_volume = final_solid_fraction(initial, "volume_reduction", 1 - (1 - edge_reduction) ** 3)
+    assert_allclose(by_volume, by_edge, rtol=1e-12)
+    assert final_solid_fraction(initial, "solid_fraction", by_edge) == by_edge
+
+
+def test_no_reduction_is_where_the_packing_is():
+    assert final_solid_fraction(0.16, "edge_reduction", 0.0) == 0.16
+    assert final_solid_fraction(0.16, "volume_reduction", 0.0) == 0.16
+
+
+def test_stresses_are_a_number_a_list_or_a_range():
+    assert stresses(2) == [2.0]
+    assert stresses([1.0, 5, 7.0]) == [1.0, 5.0, 7.0]
+    ranged = stresses({"from": 1e4, "to": 1e7, "states": 4})
+    assert_allclose(ranged, [1e4, 1e5, 1e6, 1e7], rtol=1e-14)
+    # NumPy's numbers print as no number that LAMMPS reads.
+    assert {type(value) for value in ranged + stresses(np.float64(2)) + stresses([1])} == {float}
+
+
+@given(st.floats(1e-3, 1e6), st.floats(1.1, 1e5), st.integers(2, 30))
+def test_a_range_of_stresses_is_even_in_the_logarithm(first, ratio, states):
+    ranged = stresses({"from": first, "to": first * ratio, "states": states})
+    assert len(ranged) == states
+    assert_allclose([ranged[0], ranged[-1]], [first, first * ratio], rtol=1e-12)
+    assert_allclose(np.diff(np.log(ranged)), np.log(ratio) / (states - 1), rtol=1e-6)
+
+
+@pytest.mark.parametrize("target", STRAIN_TARGETS)
+def test_edges_go_evenly_from_the_approach_to_the_end(target):
+    value = {"edge_reduction": 0.4, "volume_reduction": 0.784, "solid_fraction": 0.1 / 0.6**3}
+    control, edges = loading_targets(RADII, 0.1, loading(target, value[target]))
+    assert control == "edge"
+    first = cube_edge(RADII, 0.3)
+    assert_allclose(edges[-1], 0.6 * cube_edge(RADII, 0.1), rtol=1e-13)
+    assert_allclose(np.diff([first, *edges]), (edges[-1] - first) / 4, rtol=1e-12)
+    assert {type(edge) for edge in edges} == {float}
+
+
+def test_stresses_are_the_targets_as_they_are():
+    asked = loading("mean_stress", {"from": 1.0, "to": 100.0, "states": 3}, states=7)
+    control, targets = loading_targets(RADII, 0.1, asked)
+    assert (control, [round(target, 12) for target in targets]) == ("stress", [1.0, 10.0, 100.0])
+
+
+@pytest.mark.parametrize("states", [1, 2, 5])
+def test_unloading_goes_the_same_way_back_but_for_the_last(states):
+    there = loading_targets(RADII, 0.1, loading("edge_reduction", 0.4, states=states))[1]
+    cycle = loading("edge_reduction", 0.4, states=states, unloading=True)
+    targets = loading_targets(RADII, 0.1, cycle)[1]
+    assert len(targets) == 2 * states - 1
+    assert targets[:states] == there
+    assert targets == targets[::-1]
+
+
+def test_a_single_stress_has_no_way_back():
+    asked = loading("mean_stress", 5.0, unloading=True)
+    assert loading_targets(RADII, 0.1, asked) == ("stress", [5.0])
+
+
+def test_a_better_quality_and_a_refinement_take_smaller_steps():
+    draft, standard, fine = (strain_step(quality) for quality in ("draft", "standard", "fine"))
+    assert draft > standard > fine > 0
+    assert list(STRAIN_STEPS) == ["draft", "standard", "fine"]
+    assert strain_step("standard", 2) == standard / 2
+    assert strain_step("draft", 4) == strain_step("standard")
