@@ -83,7 +83,7 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     from branchcrush.files.tables import provenance, write_packing, write_table
     from branchcrush.loading.states import path_row, state_contacts, wall_contacts
     from branchcrush.packings.contact_laws import contact_law
-    from branchcrush.packings.placement import cube_edge
+    from branchcrush.packings.geometry import cube_edge
 
     folder, law = Path(f"results/{sample}/seed_{seed}"), contact_law(**settings["contact"])
     origin = provenance(sample=sample, seed=seed, config=settings)
@@ -290,13 +290,13 @@ def judge_state(path, grains):
     import numpy as np
     import pandas as pd
 
-    from branchcrush.energy.split import power_law_fit
     from branchcrush.files.tables import read_packing, read_table
     from branchcrush.loading.states import law_error, path_row, state_contacts, wall_contacts
     from branchcrush.packings.contact_laws import LinearContact
     from branchcrush.packings.contacts import mechanical_coordination_number, rattlers
-    from branchcrush.packings.placement import cube_edge
+    from branchcrush.packings.geometry import cube_edge
     from branchcrush.statistics.bins import bin_edges, binned_sums
+    from branchcrush.statistics.power_law import power_law_fit
 
     table = read_table(path)
     table = table[table["state"] == table["state"].iloc[-1]]

@@ -16,12 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.loading.targets import strain_step
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 ROOT = Path(__file__).resolve().parents[1]
 LOADING = {

@@ -8,7 +8,8 @@ import numpy as np
 
 from benchmarks.judge import near_pairs, state_of
 from benchmarks.measure import missing, run_timed
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 _PEERS = Path(__file__).with_name("peers")
 _PYTHON = [sys.executable]

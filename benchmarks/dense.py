@@ -17,7 +17,8 @@ from branchcrush.lammps.library import load_lammps
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 ROOT = Path(__file__).resolve().parents[1]
 INPUTS = ROOT / "lammps_inputs"

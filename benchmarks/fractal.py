@@ -15,9 +15,9 @@ import numpy as np
 from benchmarks.codes import absent, judged, largest_coordination, loose_packing, run_case
 from benchmarks.dense import apart, evaluations_cost
 from benchmarks.measure import ratios
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.gradings.sampling import sampled_radii
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 GRADING = {"form": "fractal", "basis": "number", "size": "radius", "unit": "m", "alpha": 2.5}
 LARGEST = 1e-3

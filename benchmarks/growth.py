@@ -20,7 +20,8 @@ from benchmarks.dense import (
 )
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 LIMIT = 1.5
 LOADED = {"lognormal": 0.68}

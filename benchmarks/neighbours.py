@@ -11,7 +11,8 @@ from benchmarks.dense import INPUTS, apart, costs_apart, dense_packing, packing_
 from branchcrush.errors import BranchcrushError
 from branchcrush.lammps.compression import compress
 from branchcrush.lammps.neighbours import neighbour_settings
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 LIMIT = 1.15
 LOADED = 0.72

@@ -12,12 +12,12 @@ import numpy as np
 
 from benchmarks.codes import absent, branches, judged, loose_packing, run_case
 from benchmarks.measure import difference, mean_and_error, ratios
-from branchcrush.energy.split import binned_exponent
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.loading.targets import final_solid_fraction, strain_step
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.power_law import binned_exponent
 
 GRADING = {"form": "uniform", "basis": "number", "size": "radius", "unit": "m"}
 GRADING |= {"min": 5e-6, "max": 1e-3}

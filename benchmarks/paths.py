@@ -13,17 +13,18 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.dense import INPUTS, STIFFNESS
-from branchcrush.energy.split import binned_exponent
 from branchcrush.errors import BranchcrushError, FitError
-from branchcrush.gradings.curves import uniform
+from branchcrush.gradings.forms import uniform
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.loading.jamming import jamming_point
 from branchcrush.loading.states import stress_floor
 from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, strain_step
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.power_law import binned_exponent
 
 CORES = 2
 GRAINS, ENDS, LOOSE, EDGE_REDUCTION = 1000, (5e-6, 1e-3), 0.16, 0.4

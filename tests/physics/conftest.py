@@ -11,7 +11,8 @@ import pytest
 from branchcrush.lammps.compression import compress
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 LAWS = {"linear": LinearContact, "hertz": HertzContact}

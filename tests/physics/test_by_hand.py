@@ -13,8 +13,8 @@ import pytest
 from branchcrush.lammps.compression import compression_variables
 from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.run import declared_variables
-from branchcrush.loading.states import cube
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.packings.geometry import cube
 from branchcrush.packings.placement import random_packing
 
 DUMPS = ("particles.dump.gz", "pairs.dump.gz")

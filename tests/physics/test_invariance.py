@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush.energy.split import power_law_fit
+from branchcrush.statistics.power_law import power_law_fit
 
 # Binary fractions of a cell of edge 8, so that every edge on the way is a short decimal and
 # exact: 40 approach steps of 2^-4 to 5.5, then 24 steps of 2^-5 to 4.75.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks.judge import near_pairs, state_of
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 
 @pytest.mark.parametrize("boundary", ["walls", "periodic"])

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 RATIO, SMALL = 6.0, 450

@@ -10,7 +10,8 @@ from branchcrush.lammps.compression import compress
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.contact_laws import LinearContact
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 LOADING = {"strain_step": 8e-3, "approach_steps": 10}
 

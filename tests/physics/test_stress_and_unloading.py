@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from branchcrush.loading.jamming import jamming_point
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 CASES = list(itertools.product(("walls", "periodic"), ("linear", "hertz"), (4, 5)))
 # Three decades, evenly in the logarithm; the grains give way by a tenth of their radius at the end.

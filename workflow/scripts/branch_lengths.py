@@ -2,8 +2,8 @@
 
 from branchcrush.branches.lengths import branch_length_table, branch_statistics
 from branchcrush.branches.predictions import binned_predictions, fine_edges, predictions
+from branchcrush.config.build import grading_of
 from branchcrush.errors import FitError
-from branchcrush.files.grading_tables import grading_of
 from branchcrush.files.seeds import read_contacts
 from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
 from branchcrush.jobs import job

@@ -2,7 +2,7 @@
 
 from branchcrush.files.tables import provenance, read_json, write_table
 from branchcrush.jobs import job
-from branchcrush.study.pages import comparison_row
+from branchcrush.study.comparison import comparison_row
 
 with job(snakemake.log[0]):
     kinds = (snakemake.input.fits, snakemake.input.summaries, snakemake.input.certificates)

@@ -4,14 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import provenance, write_packing, write_table
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.jobs import job
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.lammps.files import write_data_file
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 with job(snakemake.log[0]):
     sample, seed = snakemake.params.sample, int(snakemake.wildcards.seed)

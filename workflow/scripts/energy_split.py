@@ -1,7 +1,7 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
+from branchcrush.config.build import grading_of
 from branchcrush.errors import FitError
-from branchcrush.files.grading_tables import grading_of
 from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
 from branchcrush.jobs import job
 from branchcrush.samples.energy_split import (

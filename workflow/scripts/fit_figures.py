@@ -1,10 +1,9 @@
 """Draw what is fitted to a sample: the energy split, branch lengths, and the crushing model."""
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
-from branchcrush.plotting import crushing, energy, predictors
-from branchcrush.plotting import gradings as distributions
+from branchcrush.plotting import branches, crushing, energy, predictors
 from branchcrush.plotting.style import SIZE, drawn, figure
 
 with job(snakemake.log[0]):
@@ -19,7 +18,7 @@ with job(snakemake.log[0]):
         drawn(energy.plot_cubic, fit, split, fit, ax=ax)
     with figure(output.fig7_branch_lengths, dpi) as ax:
         table, statistics = read_table(files.lengths), read_json(files.statistics)
-        drawn(distributions.plot_branch_lengths, statistics, table, statistics, radius_max, ax=ax)
+        drawn(branches.plot_branch_lengths, statistics, table, statistics, radius_max, ax=ax)
     with figure(output.exponent_path, dpi) as ax:
         drawn(energy.plot_exponent_path, fit, read_table(files.split_path), fit, ax=ax)
     with figure(output.predictors, dpi, (2 * SIZE[0], SIZE[1]), (1, 2)) as panels:

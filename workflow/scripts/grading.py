@@ -1,6 +1,6 @@
 """Write the target grading beside what the seeds realise, and how well they stand for it."""
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import provenance, read_packing, write_json, write_table
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.representativity import representativity, representativity_report

@@ -4,12 +4,11 @@ from itertools import islice
 
 import numpy as np
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.jobs import job
 from branchcrush.lammps.files import read_dump
-from branchcrush.plotting import certificate, loading
-from branchcrush.plotting import gradings as distributions
+from branchcrush.plotting import certificate, gradings, loading
 from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import SIZE, drawn, figure
 from branchcrush.samples.certificate import OVERLAP_FLAG
@@ -23,7 +22,7 @@ with job(snakemake.log[0]):
     path = stacked(paths)
 
     with figure(output.fig3_grading, dpi) as ax:
-        distributions.plot_grading(read_table(files.grading), ax)
+        gradings.plot_grading(read_table(files.grading), ax)
 
     # The first seed, before and after, to one scale.
     positions, radii, edge = read_packing(files.packings[0])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import write_text
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.sampling import sampled_radii
@@ -12,7 +12,8 @@ from branchcrush.jobs import job
 from branchcrush.lammps.compression import compression_variables, trial
 from branchcrush.lammps.run import declared_variables
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 from branchcrush.plotting.gradings import plot_grading
 from branchcrush.plotting.style import figure
 from branchcrush.study.preview import preview_text, sample_plan

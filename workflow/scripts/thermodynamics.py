@@ -1,7 +1,7 @@
 """Draw the curves of the crushing model from the measured exponent and elastic energy."""
 
+from branchcrush.config.build import grading_of
 from branchcrush.errors import AdmissibilityError, FitError
-from branchcrush.files.grading_tables import grading_of
 from branchcrush.files.tables import (
     no_data,
     provenance,

@@ -1,6 +1,6 @@
 """Compare the first seeds with themselves at twice the strain steps, and judge the sample."""
 
-from branchcrush.files.grading_tables import grading_of
+from branchcrush.config.build import grading_of
 from branchcrush.files.tables import provenance, read_json, read_table, write_json, write_table
 from branchcrush.jobs import job
 from branchcrush.samples.certificate import sample_certificate

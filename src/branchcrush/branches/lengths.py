@@ -5,7 +5,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import legendre
 
-from branchcrush.gradings.curves import Grading
+from branchcrush.gradings.distribution import Grading
+from branchcrush.packings.geometry import solid_volume
 
 # Nodes above which those of every grain are replaced by these on each panel of log R.
 _MANY = 1000
@@ -99,7 +100,8 @@ def random_contact_shares(grading, edges):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import single, uniform
+    >>> from branchcrush.gradings.mixtures import single
+    >>> from branchcrush.gradings.forms import uniform
     >>> random_contact_shares(uniform(1.0, 2.0), [2.0, 2.5, 3.0, 4.0]).round(12).tolist()
     [0.125, 0.375, 0.5]
     >>> random_contact_shares(single(1.0), [1.0, 2.0, 3.0]).tolist()
@@ -167,7 +169,7 @@ def random_contact_moment(grading, order):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import uniform
+    >>> from branchcrush.gradings.forms import uniform
     >>> round(random_contact_moment(uniform(1.0, 3.0), 1.0), 12)
     4.0
 
@@ -242,7 +244,7 @@ def branch_length_table(lengths, grading, edges, predicted=None):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import uniform
+    >>> from branchcrush.gradings.forms import uniform
     >>> table = branch_length_table([[3.0]], uniform(1.0, 2.0), [2.0, 4.0])
     >>> float(table["density_random_contact_per_m"][0].round(9))
     0.5
@@ -293,7 +295,7 @@ def branch_statistics(radii, lengths, volumes, coordination_numbers, grading):
         radii, lengths, volumes, coordination_numbers, strict=True
     ):
         radius = np.asarray(radius)
-        solid = 4.0 / 3.0 * np.pi * np.sum(radius**3)
+        solid = solid_volume(radius)
         void_ratio, cube = volume / solid - 1.0, np.mean(radius**3)
         target_cube = grading.moment(3)
         means.append(

@@ -68,7 +68,8 @@ def grading_nodes(grading):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import single, uniform
+    >>> from branchcrush.gradings.mixtures import single
+    >>> from branchcrush.gradings.forms import uniform
     >>> [part.tolist() for part in grading_nodes(single(1.0))]
     [[1.0], [1.0]]
     >>> radius, share = grading_nodes(uniform(1.0, 3.0))
@@ -143,7 +144,7 @@ def predictions(grading, edges):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import uniform
+    >>> from branchcrush.gradings.forms import uniform
     >>> edges = np.array([2.0, 3.0, 4.0])
     >>> for name, prediction in predictions(uniform(1.0, 2.0), edges).items():
     ...     print(name, prediction.shares.round(2))

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
+from branchcrush.config.build import grading_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
 from branchcrush.config.schema import REFINED, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
-from branchcrush.files.grading_tables import grading_of
 from branchcrush.gradings.representativity import representativity
 from branchcrush.loading.targets import expected_overlap_ratio, loaded_solid_fraction
 from branchcrush.packings.contact_laws import contact_law

@@ -5,8 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, field_validator
 
-from branchcrush.config.fields import Positive, Section, number, refusal
-from branchcrush.files.grading_tables import UNITS
+from branchcrush.config.fields import UNITS, Positive, Section, number, refusal
 
 # Of a grain [m]. Outside of them it is the unit that is wrong.
 _SMALLEST, _LARGEST = 1e-9, 1e3

@@ -7,11 +7,12 @@ cannot say it. Here it is counted, by branch and by grain.
 import numpy as np
 
 from branchcrush.energy.predictors import branch_columns, log_length
-from branchcrush.energy.split import power_law_fit
-from branchcrush.packings.grains import grain_energy, neighbour_ratio, solid_volume
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_energy, neighbour_ratio
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.power_law import power_law_fit
 
 # Edges of r_min/r_max, and of a grain's radius over that of its neighbours.
 _RADIUS_RATIOS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -191,7 +192,7 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
             np.ones(energy.size),
             ratio,
             energy,
-            solid_volume(network.radius),
+            sphere_volume(network.radius),
             (network.contacts + network.wall_contacts).astype(float),
         )
         touching = np.isfinite(ratio)

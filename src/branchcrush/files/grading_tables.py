@@ -4,70 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from branchcrush.errors import GradingError
 from branchcrush.files.rows import read_rows, refuse
-from branchcrush.gradings import curves as gradings
-
-# [m]
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
-
-
-def grading_of(section):
-    """Return the grading that a section of the configuration describes.
-
-    Parameters
-    ----------
-    section : dict
-        From `model_dump` of a `config.gradings.GradingSection`. Names of files are relative to
-        the working directory.
-
-    Returns
-    -------
-    Grading
-        Of the radius [m].
-
-    Raises
-    ------
-    GradingError
-        When a file or what it holds is not usable; one line for each problem.
-
-    Examples
-    --------
-    >>> section = {"form": "uniform", "size": "diameter", "unit": "mm", "basis": "number"}
-    >>> grading_of({**section, "min": 1.0, "max": 2.0}).support()
-    (0.0005, 0.001)
-    """
-    if section["form"] == "mixture":
-        parts = [grading_of(component["grading"]) for component in section["components"]]
-        weights = [component["weight"] for component in section["components"]]
-        return gradings.mixture(parts, weights, section["basis"])
-    to_radius = UNITS[section["unit"]] * (0.5 if section["size"] == "diameter" else 1.0)
-    if "file" in section:
-        return _from_file(section, to_radius)
-
-    def radius(key):
-        return section[key] * to_radius
-
-    if section["form"] == "single":
-        return gradings.single(radius("value"))
-    ends, by = (radius("min"), radius("max")), section["basis"]
-    match section["form"]:
-        case "uniform":
-            return gradings.uniform(*ends, by)
-        case "loguniform":
-            return gradings.loguniform(*ends, by)
-        case "normal":
-            return gradings.normal(radius("mean"), radius("standard_deviation"), *ends, by)
-        case "lognormal":
-            width = section["geometric_standard_deviation"]
-            return gradings.lognormal(radius("median"), width, *ends, by)
-        case "weibull":
-            return gradings.weibull(radius("scale"), section["shape"], *ends, by)
-        case "fractal":
-            return gradings.fractal(*ends, section["alpha"])
-        case "fuller":
-            return gradings.fuller(*ends, section["exponent"])
-    raise GradingError(f"there is no form of grading called {section['form']!r}")
 
 
 def read_sieve_table(path, smallest=None, largest=None):
@@ -157,26 +94,6 @@ def read_radii(path):
         problems.append("line 1: no numbers in the file; give the size of one grain on each line")
     refuse(path, problems)
     return np.sort([row.values[0] for row in rows])
-
-
-def _from_file(section, to_radius):
-    path, form = section["file"], section["form"]
-    if form == "radii":
-        return gradings.from_radii(read_radii(path) * to_radius)
-    ends = section.get("min"), section.get("max")
-    radius_ends = [None if end is None else end * to_radius for end in ends]
-    try:
-        if form == "sieve":
-            opening, percent = read_sieve_table(path, *ends)
-            return gradings.from_percent_finer(opening * to_radius, percent, *radius_ends)
-        if form == "density":
-            size, density = read_density_table(path, *ends)
-            by = section["basis"]
-            return gradings.from_density(size * to_radius, density, by, *radius_ends)
-    except GradingError as error:
-        named = str(error) if str(path) in str(error) else f"{path}: {error}"
-        raise GradingError(named) from None
-    raise GradingError(f"there is no form of grading called {form!r}")
 
 
 def _table(path, names, most):

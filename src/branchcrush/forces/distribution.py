@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from branchcrush.energy.split import binned_exponent
 from branchcrush.errors import FitError
 from branchcrush.statistics.bins import binned_sums
 from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.power_law import binned_exponent
 
 # Narrow enough to show the peak below the mean force.
 _BIN = 0.25

@@ -160,12 +160,10 @@ def chance_range(seeds, confidence=0.95):
     >>> [round(limit, 3) for limit in chance_range(1)]
     [0.408, 1.602]
     """
-    from scipy.special import gammaincinv  # slow to import, and few jobs need it
+    from scipy.special import chdtri  # slow to import, and few jobs need it
 
-    tails = np.array([(1.0 - confidence) / 2.0, (1.0 + confidence) / 2.0])
-    # The chi-square law of k degrees of freedom is twice a gamma law of shape k/2.
-    shape = 2.5 * seeds
-    low, high = np.sqrt(gammaincinv(shape, tails) / shape)
+    above = np.array([(1.0 + confidence) / 2.0, (1.0 - confidence) / 2.0])
+    low, high = np.sqrt(chdtri(5.0 * seeds, above) / (5.0 * seeds))
     return float(low), float(high)
 
 

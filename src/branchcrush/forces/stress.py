@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from branchcrush.packings.grains import grain_stress_volume, solid_volume
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_stress_volume
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.intervals import pooled_interval
 
@@ -33,7 +34,7 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
     grains, radii = np.zeros(classes), np.zeros(classes)
     for network in networks:
         group = bin_numbers(network.radius, edges)
-        stress, volume = grain_stress_volume(network), solid_volume(network.radius)
+        stress, volume = grain_stress_volume(network), sphere_volume(network.radius)
         bearing = ~network.rattlers
         parts = (stress, volume, bearing * stress, bearing * volume)
         sums.append([np.bincount(group, part, classes) for part in parts])

@@ -16,8 +16,8 @@ class Grading:
 
     .. math:: g(R) = R^3 n(R) / \langle R^3 \rangle
 
-    A discrete part has no density: of a grading that has one, `number_pdf` and `mass_pdf` are nan
-    and `has_density` is False. Cumulative curves are right-continuous: a grain counts at its own
+    A discrete part has no density: of a grading that has one, `number_pdf` is nan and
+    `has_density` is False. Cumulative curves are right-continuous: a grain counts at its own
     radius.
 
     Parameters
@@ -139,10 +139,6 @@ class Grading:
         """
         radius = np.asarray(radius, dtype=float)
         return self.continuous_pdf(radius) if self.has_density else np.full(radius.shape, np.nan)
-
-    def mass_pdf(self, radius):
-        """Return the density by mass at each radius [m]; nan if there is a discrete part [1/m]."""
-        return self.number_pdf(radius) * np.asarray(radius) ** 3 / self.moment(3)
 
     def moment(self, order):
         r"""Return the raw moment by number, of order k [m^k].

@@ -4,7 +4,9 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from branchcrush.gradings.curves import from_radii, grading_summary
+from branchcrush.gradings.curves import grading_summary
+from branchcrush.gradings.mixtures import from_radii
+from branchcrush.packings.geometry import UNIT_SPHERE
 
 # The coarsest 10 % of the mass carry most of the load; few grains of them make a packing a sample
 # of its own. A box of few diameters is made of its walls.
@@ -43,37 +45,39 @@ class Representativity:
 def representativity(grading, grains, solid_fraction):
     r"""Return whether N grains can stand for a grading in a box of a solid fraction.
 
-    .. math:: N_{10} = N \,(1 - F(R_{90}^-)), \qquad
-        L = \left(\frac{4 \pi N \langle R^3 \rangle}{3 \phi}\right)^{1/3}
+        .. math:: N_{10} = N \,(1 - F(R_{90}^-)), \qquad
+            L = \left(\frac{4 \pi N \langle R^3 \rangle}{3 \phi}\right)^{1/3}
 
-    Of single sizes all grains of the size that 90 % of the mass end in are counted.
+        Of single sizes all grains of the size that 90 % of the mass end in are counted.
 
-    Parameters
-    ----------
-    grading : Grading
-    grains : int
-        N.
-    solid_fraction : float
-        phi, at the end of the loading [-].
+        Parameters
+        ----------
+        grading : Grading
+        grains : int
+            N.
+        solid_fraction : float
+            phi, at the end of the loading [-].
 
-    Returns
-    -------
-    Representativity
-        Refused below 5 grains in the coarsest 10 % of the mass or a box of 3 largest diameters,
-        with a warning below 10 or 5.
+        Returns
+        -------
+        Representativity
+            Refused below 5 grains in the coarsest 10 % of the mass or a box of 3 largest diameters,
+            with a warning below 10 or 5.
 
-    Examples
-    --------
-    >>> from branchcrush.gradings.curves import fractal, single
-    >>> representativity(single(1e-3), 1000, 0.6).verdict
-    'accept'
-    >>> few = representativity(fractal(5e-6, 1e-3, 2.6), 1000, 0.74)
-    >>> few.verdict, few.grains_needed > 1_000_000
-    ('refuse', True)
+        Examples
+        --------
+        >>> from branchcrush.packings.geometry import UNIT_SPHERE
+    from branchcrush.gradings.forms import fractal
+    from branchcrush.gradings.mixtures import single
+        >>> representativity(single(1e-3), 1000, 0.6).verdict
+        'accept'
+        >>> few = representativity(fractal(5e-6, 1e-3, 2.6), 1000, 0.74)
+        >>> few.verdict, few.grains_needed > 1_000_000
+        ('refuse', True)
     """
     coarse_share = _share_from(grading, grading.mass_ppf(1.0 - _COARSE_SHARE))
     diameter = 2.0 * float(grading.mass_ppf(_MASS_OF_LARGEST))
-    bulk = 4.0 / 3.0 * np.pi * grading.moment(3) / solid_fraction
+    bulk = UNIT_SPHERE * grading.moment(3) / solid_fraction
     edge = float(np.cbrt(grains * bulk))
     coarse = float(grains * coarse_share)
     # A whole number that rounding lifted a little needs no grain more.
@@ -112,29 +116,31 @@ def representativity(grading, grains, solid_fraction):
 def realised_gap(grading, radii):
     r"""Return the largest gap between the realised and the target sieve curve.
 
-    .. math:: \max_r \left| F_{\mathrm{realised}}(r) - F(r) \right|
+        .. math:: \max_r \left| F_{\mathrm{realised}}(r) - F(r) \right|
 
-    Both sides of every step are looked at, so nothing between them is larger.
+        Both sides of every step are looked at, so nothing between them is larger.
 
-    Parameters
-    ----------
-    grading : Grading
-        Target.
-    radii : array_like, shape (N,)
-        Radii of the grains [m].
+        Parameters
+        ----------
+        grading : Grading
+            Target.
+        radii : array_like, shape (N,)
+            Radii of the grains [m].
 
-    Returns
-    -------
-    float
-        In percent finer by mass [%].
+        Returns
+        -------
+        float
+            In percent finer by mass [%].
 
-    Examples
-    --------
-    >>> from branchcrush.gradings.curves import from_radii, uniform
-    >>> realised_gap(from_radii([1.0, 2.0]), [1.0, 2.0, 1.0, 2.0])
-    0.0
-    >>> realised_gap(uniform(1.0, 3.0), [3.0])
-    100.0
+        Examples
+        --------
+        >>> from branchcrush.packings.geometry import UNIT_SPHERE
+    from branchcrush.gradings.mixtures import from_radii
+    from branchcrush.gradings.forms import uniform
+        >>> realised_gap(from_radii([1.0, 2.0]), [1.0, 2.0, 1.0, 2.0])
+        0.0
+        >>> realised_gap(uniform(1.0, 3.0), [3.0])
+        100.0
     """
     realised, number = np.unique(np.asarray(radii, dtype=float), return_counts=True)
     volume = number * realised**3

@@ -37,7 +37,7 @@ def sampled_radii(grading, grains, method, rng):
 
     Examples
     --------
-    >>> from branchcrush.gradings.curves import uniform
+    >>> from branchcrush.gradings.forms import uniform
     >>> sampled_radii(uniform(1.0, 3.0), 2, "number_quantiles", None).round(12).tolist()
     [2.5, 1.5]
     >>> sampled_radii(uniform(1.0, 3.0), 2, "mass_quantiles", None).round(4).tolist()

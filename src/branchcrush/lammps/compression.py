@@ -19,7 +19,7 @@ from branchcrush.loading.targets import (
     UNBALANCED_FORCE_RATIO,
     loading_targets,
 )
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 # Solid fraction of a loaded packing, on which a trial is made.
 _TRIAL = 0.68

@@ -8,8 +8,9 @@ from pyarrow import csv
 
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.files import read_dump
-from branchcrush.loading.states import cube, path_row, state_contacts, wall_contacts
+from branchcrush.loading.states import path_row, state_contacts, wall_contacts
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.packings.geometry import cube
 
 DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 _LAWS = {"linear": LinearContact, "hertz": HertzContact}

@@ -91,6 +91,7 @@ def _zero(phi, root, degree):
     x, y = phi - centre, root / scale
     powers = np.vander(x, degree + 1, increasing=True)
     weights, *_ = np.linalg.lstsq(powers, y, rcond=None)
+    # Not `numpy.polynomial`: its roots lose the near one where the curvature is but rounding.
     zeros = np.roots(weights[::-1])
     zeros = zeros[np.isreal(zeros)].real
     # The root that belongs to rising stress, nearest to the first loaded state.

@@ -11,6 +11,7 @@ from branchcrush.packings.contacts import (
     rattlers,
     unbalanced_force_ratio,
 )
+from branchcrush.packings.geometry import cube, solid_volume
 
 # The overlap of two mean grains, over their radius, whose force is the mean one below which a
 # packing carries no load.
@@ -128,17 +129,6 @@ def wall_contacts(particles, edge):
     return {name: np.concatenate(parts) for name, parts in found.items()}
 
 
-def cube(edge):
-    """Return the volume of a cube, to the same last bit for a number and for an array.
-
-    Examples
-    --------
-    >>> cube(2.0)
-    8.0
-    """
-    return edge * edge * edge
-
-
 def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     """Return the row of `path.csv` of a state.
 
@@ -164,7 +154,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     volume = cube(edge)
     radius = np.asarray(particles["radius"])
     grains = radius.size
-    solid_volume = 4.0 / 3.0 * np.pi * np.sum(radius**3)
+    solid = solid_volume(radius)
     floor = force_floor(radius, law)
     force = contacts["normal_force_N"]
     at_wall = np.bincount(walls["i"], minlength=grains)
@@ -180,7 +170,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     mean_force = float(force.mean()) if force.size else 0.0
     # sqrt(rho_s/P) times the residual speed; without stress the number has no meaning.
     twice_kinetic = 2.0 * float(scalars["kinetic_energy"])
-    inertial = np.sqrt(twice_kinetic / (solid_volume * stress)) if mean_force > floor else np.nan
+    inertial = np.sqrt(twice_kinetic / (solid * stress)) if mean_force > floor else np.nan
     smaller = np.minimum(contacts["radius_i_m"], contacts["radius_j_m"])
     overlap_ratio = contacts["overlap_m"] / smaller
     median, most = np.quantile(overlap_ratio, (0.5, 0.95)) if force.size else (0.0, 0.0)
@@ -188,8 +178,8 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
         "state": int(scalars["state"]),
         "linear_strain": 1.0 - edge / first_edge,
         "volumetric_strain": 1.0 - volume / cube(first_edge),
-        "solid_fraction": solid_volume / volume,
-        "void_ratio": volume / solid_volume - 1.0,
+        "solid_fraction": solid / volume,
+        "void_ratio": volume / solid - 1.0,
         "volume_m3": volume,
         "mean_stress_Pa": stress,
         "boundary_stress_Pa": float(scalars["pair_pressure"]) if periodic else on_walls,

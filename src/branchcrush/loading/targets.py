@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 # Largest linear strain of a step [-]. docs/quality.md tells what each is good for, measured.
 STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}

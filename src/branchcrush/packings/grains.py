@@ -3,19 +3,6 @@
 import numpy as np
 
 
-def solid_volume(radius):
-    r"""Return the volume of grains.
-
-    .. math:: V = \tfrac{4}{3} \pi R^3
-
-    Examples
-    --------
-    >>> round(float(solid_volume(1.0)), 6)
-    4.18879
-    """
-    return 4.0 / 3.0 * np.pi * np.asarray(radius, dtype=float) ** 3
-
-
 def grain_energy(network, contact_exponent):
     r"""Return the elastic energy of each grain.
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from branchcrush.errors import PackingError
 from branchcrush.packings.cell_grid import EMPTY, CellGrid
+from branchcrush.packings.geometry import UNIT_SPHERE, solid_volume
 
 # Every sphere draws its places in blocks of so many, and leaves the rest of the last one unused.
 _BLOCK = 64
@@ -19,31 +20,6 @@ _BLOCKS_IN_TURN = 64
 _ALIKE = 0.02
 # Smaller classes of radii cost more than they save.
 _SMALLEST_CLASS = 64
-
-
-def cube_edge(radii, solid_fraction):
-    r"""Return the edge of the cube that the spheres fill to a solid fraction.
-
-    .. math:: L = \left(\frac{4\pi}{3\phi} \sum_i R_i^3\right)^{1/3}
-
-    Parameters
-    ----------
-    radii : array_like, shape (N,)
-        [m]
-    solid_fraction : float
-        phi [-].
-
-    Returns
-    -------
-    float
-        [m]
-
-    Examples
-    --------
-    >>> round(cube_edge([1.0], 0.5), 6)
-    2.030983
-    """
-    return float(np.cbrt(4.0 / 3.0 * np.pi * np.sum(np.asarray(radii) ** 3) / solid_fraction))
 
 
 def random_packing(radii, edge, *, periodic, rng, largest_attempts=20_000):
@@ -91,7 +67,7 @@ def random_packing(radii, edge, *, periodic, rng, largest_attempts=20_000):
             "use more grains or a lower initial_solid_fraction"
         )
     spheres = _Spheres(radii, edge, periodic)
-    filled = 4.0 / 3.0 * np.pi * np.cumsum(radii**3) / edge**3
+    filled = UNIT_SPHERE * np.cumsum(radii**3) / edge**3
     placed, tried, largest_batch, blocks_each = 0, 0, _LARGEST_BATCH, 1.0
     while placed < radii.size:
         # A sphere is given a block of places, and further blocks until one of them is free: the
@@ -120,7 +96,7 @@ def random_packing(radii, edge, *, periodic, rng, largest_attempts=20_000):
             largest_batch = found if tried else min(2 * largest_batch, _LARGEST_BATCH)
         placed += found
         if tried >= largest_attempts:
-            reached = 4.0 / 3.0 * np.pi * np.sum(radii[:placed] ** 3) / edge**3
+            reached = solid_volume(radii[:placed]) / edge**3
             raise PackingError(
                 f"no free place for grain {placed + 1} of {radii.size} after {largest_attempts} "
                 f"attempts, at a solid fraction of {reached:.3f}: lower initial_solid_fraction "

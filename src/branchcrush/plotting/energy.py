@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes, interval_text
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
+from branchcrush.statistics.intervals import interval_text
 
 # Bins with fewer branches are marked with their count.
 THIN = 100

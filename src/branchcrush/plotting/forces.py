@@ -3,7 +3,8 @@
 import numpy as np
 
 from branchcrush.forces.fabric import chance_range
-from branchcrush.plotting.style import FAINT, STATES, axes
+from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, draw_points, of_states
+from branchcrush.statistics.intervals import interval_text
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}
 
@@ -61,4 +62,171 @@ def plot_fabric(table, summary, ax=None):
     )
     ax.set_ylim(0, 1.6 * ax.get_ylim()[1])
     ax.legend(loc="upper left", title="root mean square over expected", title_fontsize=6.5)
+    return ax
+
+
+def plot_force_distribution(table, summary, ax=None):
+    """Draw the distribution of relative forces with its tail.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `force_distribution.csv`.
+    summary : dict
+        `sharing.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for where, rows in of_states(table):
+        label, color = STATES[where]
+        rows = rows[rows["contacts"] > 0]
+        x = (rows["force_low"] + rows["force_high"]) / 2.0
+        draw_points(ax, x, rows, "density", color, label, floor=1e-6)
+        tail = next(t for t in summary[where]["forces"]["tails"] if t["threshold"] == 2.0)
+        if tail["decay_rate"] is not None:
+            line = np.linspace(2.0, max(x.max(), 3.0), 20)
+            scale = tail["share_above"] * tail["decay_rate"]
+            text = rf"$e^{{-\beta f}}$, $\beta$ = {tail['decay_rate']:.2f}"
+            ax.plot(
+                line,
+                scale * np.exp(-tail["decay_rate"] * (line - 2.0)),
+                color=color,
+                ls="--",
+                lw=0.9,
+                label=text,
+            )
+    ax.set(
+        xlabel=r"normal force $F/\langle F\rangle$ [-]",
+        ylabel=r"density $P(F/\langle F\rangle)$ [-]",
+        yscale="log",
+    )
+    ax.set(xlim=(0, None), ylim=(max(ax.get_ylim()[0], 1e-5), None))
+    ax.legend(loc="upper right")
+    return ax
+
+
+def plot_force_by_length(table, summary, radius_max, ax=None):
+    """Draw the mean force against branch length.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `force_by_length.csv`.
+    summary : dict
+        `sharing.json`.
+    radius_max : float
+        [m]
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for where, rows in of_states(table):
+        label, color = STATES[where]
+        fit = summary[where]["forces"]["by_length"]
+        if fit:
+            label += (
+                f": m = {interval_text(fit['exponent'], fit['exponent_low'], fit['exponent_high'])}"
+            )
+        rows = rows[rows["branches"] >= 20]
+        x = (rows["branch_length_low_m"] + rows["branch_length_high_m"]) / 2.0 / radius_max
+        draw_points(ax, x, rows, "mean_force", color, label)
+    ax.axhline(1.0, color=FAINT, lw=0.8)
+    ax.set(
+        xlabel=r"branch length $l/R_M$ [-]",
+        ylabel=r"mean force $\langle F\rangle_l/\langle F\rangle$ [-]",
+    )
+    ax.set(xlim=(0, None), ylim=(0, 1.3 * ax.get_ylim()[1]))
+    ax.legend(
+        loc="upper left", title=r"bins of 20 branches or more; $F \sim l^m$", title_fontsize=6.5
+    )
+    return ax
+
+
+def plot_stress_by_radius(table, radius_max, ax=None):
+    """Draw the mean stress of grains against their radius.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `stress_by_radius.csv`.
+    radius_max : float
+        [m]
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for where, rows in of_states(table):
+        label, color = STATES[where]
+        x = rows["mean_radius_m"] / radius_max
+        draw_points(ax, x, rows, "stress_ratio", color, label)
+        ax.plot(
+            x,
+            rows["load_bearing_stress_ratio"],
+            ":",
+            color=color,
+            label=f"{label}, without rattlers",
+        )
+    ax.axhline(1.0, color=FAINT, lw=0.8)
+    ax.set(xlabel=r"radius $R/R_M$ [-]", ylabel="mean stress over that of all [-]")
+    top = max(1.5, 1.15 * float(table["stress_ratio"].max()))
+    ax.set(
+        xlim=(0, 1.03),
+        ylim=(0, min(max(top, 1.1 * float(table["load_bearing_stress_ratio"].max())), 3.5)),
+    )
+    ax.legend(loc="upper right")
+    return ax
+
+
+def plot_stress_sharing(table, summary, ax=None):
+    """Draw the share of the stress against the share of the solid volume, finest grains first.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `stress_sharing.csv`.
+    summary : dict
+        `sharing.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for where, rows in of_states(table):
+        label, color = STATES[where]
+        stress = summary[where]["stress"]
+        limits = (stress[f"sharing_index{part}"] for part in ("", "_low", "_high"))
+        ax.plot(
+            rows["volume_share"],
+            rows["stress_share"],
+            color=color,
+            label=f"{label}: I = {interval_text(*limits)}",
+        )
+        ax.fill_between(
+            rows["volume_share"],
+            rows["stress_share_low"],
+            rows["stress_share_high"],
+            color=color,
+            alpha=0.2,
+            lw=0,
+        )
+    ax.plot([0, 1], [0, 1], color=OTHER, ls="--", lw=0.8, label="the same stress in all grains")
+    ax.set(
+        xlabel="share of the solid volume, finest first [-]",
+        ylabel="share of the stress [-]",
+        xlim=(0, 1),
+        ylim=(0, 1),
+    )
+    ax.legend(loc="upper left")
     return ax

@@ -1,6 +1,5 @@
 """Figures 3 and 7 of the paper: the grading and the distribution of branch lengths."""
 
-import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
@@ -51,74 +50,3 @@ def _mark_sizes(axis, ratio):
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if ratio < 30 else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda size, _: f"{size:g}"))
     axis.set_minor_formatter(NullFormatter())
-
-
-def plot_branch_lengths(table, statistics, radius_max, ax=None):
-    """Draw the measured distribution of branch lengths beside Eq. 4 (Fig. 7).
-
-    Parameters
-    ----------
-    table : DataFrame
-        `branch_lengths.csv`.
-    statistics : dict
-        `branch_lengths.json`.
-    radius_max : float
-        [m]
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    middle = (table["length_low_m"] + table["length_high_m"]) / 2 / radius_max
-    width = (table["length_high_m"] - table["length_low_m"]) / radius_max
-    density = table["density_measured_per_m"] * radius_max
-    error = table["density_measured_standard_error_per_m"] * radius_max
-    ax.bar(
-        middle,
-        density,
-        width,
-        color=MEASURED,
-        alpha=0.35,
-        label=f"measured, {_count(table)} branches",
-    )
-    if np.isfinite(error).any():
-        ax.errorbar(
-            middle,
-            density,
-            error,
-            fmt="none",
-            ecolor=MEASURED,
-            lw=0.8,
-            label="standard error of seeds",
-        )
-    ax.plot(
-        middle,
-        table["density_random_contact_per_m"] * radius_max,
-        "o-",
-        color=MODEL,
-        label="Eq. 4: any two grains touch alike",
-    )
-    if "density_parking_per_m" in table:
-        ax.plot(
-            middle,
-            table["density_parking_per_m"] * radius_max,
-            "D-",
-            ms=2.5,
-            color=OTHER,
-            label="random parking, at jamming",
-        )
-    for key, color in (("mean_length_1_m1", MEASURED), ("eq4_length_1_m1", MODEL)):
-        ax.axvline(statistics[key] / radius_max, color=color, lw=0.8, ls=":")
-    ax.set(xlabel=r"branch length $l/R_M$ [-]", ylabel=r"density $B(l)\,R_M$ [-]")
-    ax.set_xlim(0, table["length_high_m"].max() / radius_max)
-    ax.set_ylim(
-        0, 1.4 * max(density.max(), table["density_random_contact_per_m"].max() * radius_max)
-    )
-    ax.legend(loc="upper left", title="dotted: the means", title_fontsize=6.5)
-    return ax
-
-
-def _count(table):
-    return f"{int(table['branches'].sum()):,}".replace(",", " ")

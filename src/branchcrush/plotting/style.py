@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
@@ -63,21 +64,6 @@ def figure(path, dpi, size=SIZE, panels=(1, 1), squeeze=True):
         plt.close(drawn)
 
 
-def interval_text(estimate, low, high):
-    """Return an estimate with its interval as text, as 3.06 (2.97 to 3.15).
-
-    Examples
-    --------
-    >>> interval_text(3.0, 2.9, 3.1)
-    '3.00 (2.90 to 3.10)'
-    >>> interval_text(3.0, None, None)
-    '3.00 (one seed: no interval)'
-    """
-    if low is None or low != low:
-        return f"{estimate:.2f} (one seed: no interval)"
-    return f"{estimate:.2f} ({low:.2f} to {high:.2f})"
-
-
 def drawn(plot, result, *data, ax):
     """Draw a result on an Axes, or write there why there is none, and return it.
 
@@ -99,3 +85,16 @@ def reason(ax, text):
     ax.text(0.5, 0.5, lines, ha="center", va="center", transform=ax.transAxes, fontsize=7)
     ax.set_axis_off()
     return ax
+
+
+def of_states(table):
+    return ((where, table[table["where"] == where]) for where in STATES)
+
+
+def draw_points(ax, x, rows, column, color, label, marker="o", floor=0.0):
+    """Draw points with their intervals, those below a floor cut there."""
+    y, low, high = (rows[column + part] for part in ("", "_low", "_high"))
+    error = None
+    if low.notna().any():
+        error = np.array([y - np.maximum(low, floor), high - y]).clip(0.0)
+    ax.errorbar(x, y, error, fmt=marker, ms=3, color=color, lw=0.8, label=label)

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from branchcrush.energy.split import binned_exponent
 from branchcrush.errors import FitError
 from branchcrush.samples.ensemble import certified_loading
+from branchcrush.statistics.power_law import binned_exponent
 
 _QUANTITIES = (
     "solid_fraction",

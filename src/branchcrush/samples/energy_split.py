@@ -9,11 +9,12 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.energy.predictors import branch_columns, compared_predictors, curvature
-from branchcrush.energy.split import binned_exponent, cubic_r_squared, energy_split
+from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
 from branchcrush.samples.ensemble import mean_path
 from branchcrush.statistics.bins import binned_sums
 from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.power_law import binned_exponent
 
 # The columns of a contacts table that energies by length need, and those that all of it needs.
 ENERGY_COLUMNS = ("state", "radius_i_m", "radius_j_m", "energy_J")

@@ -4,13 +4,9 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.branches.lengths import random_contact_moment
-from branchcrush.crushing.model import (
-    CrushingLaw,
-    crushing_path,
-    fit_elasticity,
-    reference_energy,
-    theta,
-)
+from branchcrush.crushing.elasticity import fit_elasticity
+from branchcrush.crushing.model import CrushingLaw, reference_energy, theta
+from branchcrush.crushing.path import crushing_path
 from branchcrush.errors import FitError
 from branchcrush.samples.ensemble import stacked
 

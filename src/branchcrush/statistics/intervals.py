@@ -125,3 +125,18 @@ def pooled_interval(sums, statistic, *, confidence=0.95, resamples=2000, rng):
 
 def _plain(value):
     return float(value) if np.ndim(value) == 0 else value
+
+
+def interval_text(estimate, low, high):
+    """Return an estimate with its interval as text, as 3.06 (2.97 to 3.15).
+
+    Examples
+    --------
+    >>> interval_text(3.0, 2.9, 3.1)
+    '3.00 (2.90 to 3.10)'
+    >>> interval_text(3.0, None, None)
+    '3.00 (one seed: no interval)'
+    """
+    if low is None or low != low:
+        return f"{estimate:.2f} (one seed: no interval)"
+    return f"{estimate:.2f} ({low:.2f} to {high:.2f})"

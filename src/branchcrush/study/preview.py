@@ -1,6 +1,5 @@
 """What a study will be, cost and take, before it runs."""
 
-import math
 from typing import NamedTuple
 
 from branchcrush.gradings.curves import grading_summary
@@ -10,6 +9,7 @@ from branchcrush.loading.targets import (
     loaded_solid_fraction,
     planned_steps,
 )
+from branchcrush.packings.geometry import UNIT_SPHERE
 
 # Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
 # to strains and to stresses: a stress is sought among packings at rest. A packing may need half or
@@ -58,7 +58,7 @@ def sample_plan(sample, refined, grading, law, seconds_per_grain):
     """
     grains, loading = sample["grains"], sample["loading"]
     start = sample["initial_solid_fraction"]
-    solid = 4.0 / 3.0 * math.pi * grading.moment(3) * grains
+    solid = UNIT_SPHERE * grading.moment(3) * grains
     end = loaded_solid_fraction(start, loading)
     standing = representativity(grading, grains, end)
     warnings = [] if standing.verdict == "accept" else [standing.message]

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from branchcrush.files.tables import read_table
-from branchcrush.plotting.style import interval_text
+from branchcrush.statistics.intervals import interval_text
 
 
 def summary(results):

@@ -21,7 +21,8 @@ from branchcrush.branches.coordination_models import (
 )
 from branchcrush.branches.predictions import grading_nodes
 from branchcrush.errors import FitError
-from branchcrush.gradings.curves import fractal, from_radii, lognormal, loguniform, normal, uniform
+from branchcrush.gradings.forms import fractal, lognormal, loguniform, normal, uniform
+from branchcrush.gradings.mixtures import from_radii
 
 SPHERE = 4.0 * np.pi
 EQUAL = solid_angle(1.0, 1.0)

@@ -17,7 +17,8 @@ from branchcrush.branches.lengths import (
     random_contact_moment,
     random_contact_shares,
 )
-from branchcrush.gradings.curves import fractal, from_radii, lognormal, mixture, single, uniform
+from branchcrush.gradings.forms import fractal, lognormal, uniform
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 
 RADIUS_MAX = 1e-3
 GRADINGS = {

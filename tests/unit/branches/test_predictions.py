@@ -22,18 +22,16 @@ from branchcrush.branches.predictions import (
     predictions,
 )
 from branchcrush.errors import FitError
-from branchcrush.gradings.curves import (
+from branchcrush.gradings.forms import (
     fractal,
-    from_radii,
     fuller,
     lognormal,
     loguniform,
-    mixture,
     normal,
-    single,
     uniform,
     weibull,
 )
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 
 
 @st.composite

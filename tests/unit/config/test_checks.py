@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study, sample_problems
 from branchcrush.errors import ConfigError
-from branchcrush.files.grading_tables import grading_of
 
 SIZES = {"basis": "number", "size": "radius", "unit": "mm"}
 UNIFORM = {"form": "uniform", **SIZES, "min": 0.5, "max": 1.0}

@@ -5,10 +5,10 @@ from copy import deepcopy
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
+from branchcrush.config.build import grading_of
 from branchcrush.config.fields import Section
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
-from branchcrush.files.grading_tables import grading_of
 
 SIZES = {"size": "diameter", "unit": "mm"}
 ENDS = {**SIZES, "basis": "mass", "min": 0.5, "max": 4.0}

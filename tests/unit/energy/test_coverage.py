@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from branchcrush.energy.predictors import PREDICTORS, curvature, log_length
-from branchcrush.energy.split import binned_exponent
 from branchcrush.statistics.bins import bin_edges, binned_sums
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
+from branchcrush.statistics.power_law import binned_exponent
 
 EDGES = bin_edges(0.05, 1.0)
 CENTRES = (EDGES[1:] + EDGES[:-1]) / 2

@@ -7,7 +7,8 @@ from scipy.special import stdtrit
 
 from branchcrush.energy.shielding import branch_shielding, grain_shielding, network_branches
 from branchcrush.errors import FitError
-from branchcrush.packings.grains import grain_energy, solid_volume
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_energy
 from branchcrush.packings.network import Network
 
 READINGS = ("contact", "grain", "volume")
@@ -295,7 +296,7 @@ def test_ratios_of_all_classes_and_of_grains_without_neighbours_have_the_mean_of
     table, _ = grain_shielding(made, 1.0, **options())
     every = table["grains_counted"] == "all"
     energy = np.concatenate([grain_energy(one, 1.0) for one in made])
-    volume = np.concatenate([solid_volume(one.radius) for one in made])
+    volume = np.concatenate([sphere_volume(one.radius) for one in made])
     alone = np.concatenate([one.contacts == 0 for one in made])
     filled = every & (table["grains"] > 0)
     assert 0 < alone.sum() == 2400 - table["grains"][every].sum()

@@ -6,15 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.energy.split import (
-    PowerLaw,
-    binned_exponent,
-    cubic_r_squared,
-    energy_split,
-    power_law_fit,
-)
+from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
 from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.power_law import PowerLaw, binned_exponent, power_law_fit
 
 EDGES = bin_edges(0.005, 1.0, 20)
 CENTRES = (EDGES[1:] + EDGES[:-1]) / 2

@@ -4,14 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from branchcrush.config.build import grading_of
 from branchcrush.config.gradings import grading_data_files
 from branchcrush.errors import GradingError
-from branchcrush.files.grading_tables import (
-    grading_of,
-    read_density_table,
-    read_radii,
-    read_sieve_table,
-)
+from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
 
 OPENING, PERCENT = [0.063, 0.5, 2.0, 8.0], [0.0, 12.5, 60.0, 100.0]
 PLAIN = "0.063,0\n0.5,12.5\n2,60\n8,100\n"

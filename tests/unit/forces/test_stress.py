@@ -14,7 +14,8 @@ from branchcrush.forces.stress import (
     stress_sharing_result,
 )
 from branchcrush.packings.contacts import mean_stress
-from branchcrush.packings.grains import grain_stress_volume, solid_volume
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_stress_volume
 from branchcrush.packings.network import Network
 
 SHARES = np.linspace(0.0, 1.0, 101)
@@ -43,7 +44,7 @@ def loaded(radius, stress, held=True):
     radius = np.asarray(radius, dtype=float)
     walls = np.where(held, 6, 1) * np.ones(radius.size, dtype=int)
     wall = np.repeat(np.arange(radius.size), walls)
-    force = 3.0 * np.asarray(stress) * solid_volume(radius) / radius / walls
+    force = 3.0 * np.asarray(stress) * sphere_volume(radius) / radius / walls
     ends = ([0], [radius.size - 1], [0.0], [0.0])
     return network(radius, *ends, wall, np.zeros(wall.size), force[wall])
 
@@ -80,7 +81,7 @@ def test_one_grain_between_six_walls_has_the_stress_of_the_walls():
 @given(st.integers(0, 2**32), st.integers(2, 40), st.integers(1, 120), st.integers(0, 30))
 def test_the_grains_add_up_to_the_stress_of_the_packing(seed, grains, contacts, walls):
     packing = random_network(rng_of(seed), grains, contacts, walls)
-    volume = 3.0 * solid_volume(packing.radius).sum()
+    volume = 3.0 * sphere_volume(packing.radius).sum()
     whole = mean_stress(
         packing.length - packing.overlap,
         packing.force,
@@ -124,7 +125,7 @@ def test_classes_weighted_by_volume_have_the_mean_stress(seed, seeds):
     edges = radius_classes(radii, np.ones(radii.size), 5)
     table = stress_by_radius(networks, edges, resamples=20, rng=rng)
     group = np.clip(np.searchsorted(edges, radii, side="right") - 1, 0, len(edges) - 2)
-    volume = np.bincount(group, solid_volume(radii), len(edges) - 1)
+    volume = np.bincount(group, sphere_volume(radii), len(edges) - 1)
     assert table["grains"].sum() == radii.size
     filled = table["grains"] > 0
     assert_allclose(np.average(table["stress_ratio"][filled], weights=volume[filled]), 1.0)

@@ -8,17 +8,13 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy import stats
 
 from branchcrush.gradings.curves import (
-    fractal,
-    from_radii,
-    fuller,
     grading_summary,
     grading_table,
-    mixture,
     particle_diameter,
     realised_percent_finer,
-    single,
-    uniform,
 )
+from branchcrush.gradings.forms import fractal, fuller, uniform
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 
 RADIUS_MAX = 1e-3
 ratios = pytest.mark.parametrize("ratio", [2, 200, 1000])

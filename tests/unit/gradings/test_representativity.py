@@ -6,15 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from branchcrush.gradings.curves import (
-    fractal,
-    from_radii,
-    lognormal,
-    mixture,
-    normal,
-    single,
-    uniform,
-)
+from branchcrush.gradings.forms import fractal, lognormal, normal, uniform
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.representativity import realised_gap, representativity
 from branchcrush.gradings.sampling import sampled_radii
 

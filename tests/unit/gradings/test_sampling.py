@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy import stats
 
-from branchcrush.gradings.curves import fractal, from_radii, mixture, normal, single, uniform
+from branchcrush.gradings.forms import fractal, normal, uniform
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.representativity import realised_gap
 from branchcrush.gradings.sampling import METHODS, sampled_radii
 

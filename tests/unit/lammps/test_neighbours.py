@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from branchcrush.lammps.neighbours import neighbour_settings
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 
 def settings_of(radii, solid_fraction=0.6):

@@ -14,7 +14,7 @@ from branchcrush.loading.targets import (
     strain_step,
     stresses,
 )
-from branchcrush.packings.placement import cube_edge
+from branchcrush.packings.geometry import cube_edge
 
 RADII = np.array([1.0, 0.5, 0.25])
 

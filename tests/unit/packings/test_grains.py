@@ -8,12 +8,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.packings.contact_laws import HertzContact, LinearContact, reduced_radius
 from branchcrush.packings.contacts import mean_stress
-from branchcrush.packings.grains import (
-    grain_energy,
-    grain_stress_volume,
-    neighbour_ratio,
-    solid_volume,
-)
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_energy, grain_stress_volume, neighbour_ratio
 from branchcrush.packings.network import Network
 
 LAWS = [LinearContact(3e4), HertzContact(2e7)]
@@ -196,5 +192,5 @@ def test_the_ratio_to_neighbours_does_not_know_the_unit(seed, unit):
 
 def test_volume_of_a_sphere_is_that_of_its_shells():
     shells = np.linspace(0.0, 2.0, 10_001)
-    assert_allclose(solid_volume(2.0), np.trapezoid(4.0 * np.pi * shells**2, shells), rtol=1e-7)
-    assert_allclose(solid_volume([1.0, 3.0])[1] / solid_volume(1.0), 27.0)
+    assert_allclose(sphere_volume(2.0), np.trapezoid(4.0 * np.pi * shells**2, shells), rtol=1e-7)
+    assert_allclose(sphere_volume([1.0, 3.0])[1] / sphere_volume(1.0), 27.0)

@@ -11,8 +11,9 @@ from scipy.spatial import cKDTree
 from scipy.stats import kstest
 
 from branchcrush.errors import PackingError
-from branchcrush.gradings.curves import fractal, uniform
-from branchcrush.packings.placement import cube_edge, random_packing
+from branchcrush.gradings.forms import fractal, uniform
+from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
 boundaries = pytest.mark.parametrize("periodic", [False, True], ids=["walls", "periodic"])
 

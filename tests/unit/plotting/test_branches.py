@@ -8,10 +8,11 @@ from matplotlib import pyplot as plt
 from branchcrush.branches.predictions import fine_edges, predictions
 from branchcrush.errors import FitError
 from branchcrush.files.tables import read_json, write_json
-from branchcrush.gradings.curves import single, uniform
+from branchcrush.gradings.forms import uniform
+from branchcrush.gradings.mixtures import single
 from branchcrush.packings.network import state_network
 from branchcrush.plotting import branches as touching
-from branchcrush.plotting import predictors
+from branchcrush.plotting import forces, predictors
 from branchcrush.plotting import shielding as sharing
 from branchcrush.plotting import study as samples
 from branchcrush.plotting import study_networks as samples_networks
@@ -133,10 +134,10 @@ def test_what_is_shared(sample):
     summary = through_json(summary)
     drawn = [
         sharing.plot_grain_shielding(tables["shielding_grains"]),
-        sharing.plot_force_distribution(tables["force_distribution"], summary),
-        sharing.plot_force_by_length(tables["force_by_length"], summary, 1.0),
-        sharing.plot_stress_by_radius(tables["stress_by_radius"], 1.0),
-        sharing.plot_stress_sharing(tables["stress_sharing"], summary),
+        forces.plot_force_distribution(tables["force_distribution"], summary),
+        forces.plot_force_by_length(tables["force_by_length"], summary, 1.0),
+        forces.plot_stress_by_radius(tables["stress_by_radius"], 1.0),
+        forces.plot_stress_sharing(tables["stress_sharing"], summary),
     ]
     if "reason" not in summary["end"]["shielding"]["branches"]:
         drawn.append(sharing.plot_branch_shielding(tables["shielding_branches"], summary))

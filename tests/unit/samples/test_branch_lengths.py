@@ -6,7 +6,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.branches.predictions import fine_edges, predictions
-from branchcrush.gradings.curves import from_radii, single, uniform
+from branchcrush.gradings.forms import uniform
+from branchcrush.gradings.mixtures import from_radii, single
 from branchcrush.packings.network import COLUMNS, WALL_COLUMNS
 from branchcrush.samples.branch_lengths import (
     contact_number_rows,

@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 from pandas.testing import assert_frame_equal
 
 from branchcrush.energy.predictors import log_length
-from branchcrush.energy.split import power_law_fit
 from branchcrush.errors import FitError
 from branchcrush.samples.energy_split import (
     COLUMNS,
@@ -21,6 +20,7 @@ from branchcrush.samples.energy_split import (
     state_sums,
 )
 from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.power_law import power_law_fit
 
 RADIUS_MAX, STIFFNESS, AMPLITUDE = 1e-3, 1e6, 50.0
 EDGES = bin_edges(5e-6, RADIUS_MAX, 20)

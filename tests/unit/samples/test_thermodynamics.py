@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.errors import AdmissibilityError, FitError
-from branchcrush.gradings.curves import fractal, uniform
+from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.samples.thermodynamics import FIXED_CRUSHING, crushing_curves, measured_elasticity
 from branchcrush.statistics.intervals import Interval
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from branchcrush.samples.certificate import LIMITS
-from branchcrush.study.pages import comparison_row, render_report
+from branchcrush.study.comparison import comparison_row
+from branchcrush.study.pages import render_report
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"
 FIGURES = re.findall(r"s\.figures\.(\w+)", TEMPLATE.read_text(encoding="utf-8"))

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from branchcrush.gradings.curves import single, uniform
+from branchcrush.gradings.forms import uniform
+from branchcrush.gradings.mixtures import single
 from branchcrush.packings.contact_laws import LinearContact
 from branchcrush.study.preview import Plan, preview_text, sample_plan
 

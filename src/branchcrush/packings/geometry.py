@@ -1,0 +1,103 @@
+"""Volumes of spheres and of the cubic cell that holds them."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+# Volume of a sphere of radius 1: times a moment <R^3> it is a mean volume of grains.
+UNIT_SPHERE = 4.0 / 3.0 * np.pi
+
+
+def sphere_volume(radius: ArrayLike) -> NDArray:
+    r"""Return the volume of each grain.
+
+    .. math:: V = \tfrac{4}{3} \pi R^3
+
+    Parameters
+    ----------
+    radius : array_like, shape (N,)
+        R [m].
+
+    Returns
+    -------
+    ndarray, shape (N,)
+        [m3]
+
+    Examples
+    --------
+    >>> round(float(sphere_volume(1.0)), 6)
+    4.18879
+    """
+    return UNIT_SPHERE * np.asarray(radius, dtype=float) ** 3
+
+
+def solid_volume(radii: ArrayLike) -> float:
+    r"""Return the volume of all grains together.
+
+    .. math:: V_s = \tfrac{4}{3} \pi \sum_i R_i^3
+
+    Parameters
+    ----------
+    radii : array_like, shape (N,)
+        [m]
+
+    Returns
+    -------
+    float
+        [m3]
+
+    Examples
+    --------
+    >>> round(solid_volume([1.0, 2.0]) / np.pi, 9)
+    12.0
+
+    References
+    ----------
+    Paper, Eq. 1.
+    """
+    return float(UNIT_SPHERE * np.sum(np.asarray(radii, dtype=float) ** 3))
+
+
+def cube(edge):
+    """Return the volume of a cube, to the same last bit for a number and for an array.
+
+    Parameters
+    ----------
+    edge : float or ndarray
+        [m]
+
+    Returns
+    -------
+    float or ndarray
+        [m3]
+
+    Examples
+    --------
+    >>> cube(2.0)
+    8.0
+    """
+    return edge * edge * edge
+
+
+def cube_edge(radii: ArrayLike, solid_fraction: float) -> float:
+    r"""Return the edge of the cube that the spheres fill to a solid fraction.
+
+    .. math:: L = \left(\frac{4\pi}{3\phi} \sum_i R_i^3\right)^{1/3}
+
+    Parameters
+    ----------
+    radii : array_like, shape (N,)
+        [m]
+    solid_fraction : float
+        phi [-].
+
+    Returns
+    -------
+    float
+        [m]
+
+    Examples
+    --------
+    >>> round(cube_edge([1.0], 0.5), 6)
+    2.030983
+    """
+    return float(np.cbrt(solid_volume(radii) / solid_fraction))
