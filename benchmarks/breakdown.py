@@ -19,19 +19,13 @@ import numpy as np
 from branchcrush.config.build import grading_of
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
-from branchcrush.loading.targets import strain_step
+from branchcrush.loading.targets import Loading, strain_step
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
 
 ROOT = Path(__file__).resolve().parents[1]
-LOADING = {
-    "target": "edge_reduction",
-    "value": 0.4,
-    "states": 15,
-    "unloading": False,
-    "approach_solid_fraction": 0.55,
-}
+LOADING = Loading("edge_reduction", 0.4)
 GRADING = {"form": "uniform", "basis": "number", "size": "radius", "unit": "m"}
 _TIMER = re.compile(r"^(\w+) +\| +[\d.e+-]* *\| +([\d.e+-]+) +\|", re.MULTILINE)
 _LOOP = re.compile(r"^Loop time of (\S+) on \d+ procs for (\d+) steps", re.MULTILINE)

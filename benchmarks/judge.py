@@ -80,12 +80,13 @@ def state_of(positions, radii, edge, periodic, stiffness):
         wall_distance, wall_force = np.concatenate(wall_distance), np.concatenate(wall_force)
 
     ratio = overlap / np.minimum(radii[i], radii[j])
+    loose = rattlers(i, j, grains, at_wall)
     return {
         "solid_fraction": float(4.0 / 3.0 * np.pi * np.sum(radii**3) / volume),
         "mean_stress_Pa": mean_stress(branch, force, volume, wall_distance, wall_force),
         "coordination_number": coordination_number(force.size, grains),
-        "mechanical_coordination_number": mechanical_coordination_number(i, j, grains, at_wall),
-        "rattler_fraction": float(rattlers(i, j, grains, at_wall).mean()),
+        "mechanical_coordination_number": mechanical_coordination_number(i, j, loose, at_wall),
+        "rattler_fraction": float(loose.mean()),
         "elastic_energy_J": float(
             (np.dot(force, force) + np.dot(wall_force, wall_force)) / (2.0 * stiffness)
         ),

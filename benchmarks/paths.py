@@ -19,7 +19,7 @@ from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.loading.jamming import jamming_point
 from branchcrush.loading.states import stress_floor
-from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, strain_step
+from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, Loading, strain_step
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
@@ -144,8 +144,7 @@ def paper_compression(
     packing, boundary="walls", states=15, strains=None, ranks=1, layers=(), **others
 ):
     """Return the `Compression` of a packing, the seconds of LAMMPS on the clock and of the CPU."""
-    loading = {"target": "edge_reduction", "value": EDGE_REDUCTION, "states": states}
-    loading |= {"unloading": False, "approach_solid_fraction": 0.55}
+    loading = Loading("edge_reduction", EDGE_REDUCTION, states)
     strains = strains or strain_step("standard")
     variables = compression_variables(
         packing[1], LOOSE, boundary=boundary, law=LAW, loading=loading, strain_step=strains

@@ -19,7 +19,7 @@ from common import final_state, read_case, volumes, write_result
 
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.lammps.files import read_dump
-from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
+from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, Loading
 from branchcrush.packings.contact_laws import LinearContact
 
 INPUTS = Path(__file__).resolve().parents[2] / "lammps_inputs"
@@ -40,13 +40,9 @@ def variables_of(case, packing):
     """Return the variables of `in.compress` for a case."""
     path, final_edge = case["path"], float(case["final_edge"])
     solid = float(volumes(packing.radii).sum())
-    loading = {
-        "target": "solid_fraction",
-        "value": solid / final_edge**3,
-        "states": path["states"],
-        "unloading": False,
-        "approach_solid_fraction": path["approach_solid_fraction"],
-    }
+    loading = Loading(
+        "solid_fraction", solid / final_edge**3, path["states"], path["approach_solid_fraction"]
+    )
     variables = compression_variables(
         packing.radii,
         solid / packing.edge**3,

@@ -25,7 +25,7 @@ def imported_modules(path):
     Examples
     --------
     >>> sorted(imported_modules(Path(__file__).with_name("packings") / "placement.py"))
-    ['errors', 'packings.cell_grid']
+    ['errors', 'packings.cell_grid', 'packings.geometry']
     """
     found = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
@@ -55,7 +55,7 @@ def source_files(path):
     --------
     >>> placement = Path(__file__).with_name("packings") / "placement.py"
     >>> [Path(file).name for file in source_files(placement)]
-    ['errors.py', 'cell_grid.py']
+    ['errors.py', 'cell_grid.py', 'geometry.py']
     """
     pending, seen = list(imported_modules(path)), set()
     while pending:

@@ -13,6 +13,7 @@ import pytest
 from branchcrush.lammps.compression import compression_variables
 from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.run import declared_variables
+from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube
 from branchcrush.packings.placement import random_packing
@@ -136,8 +137,8 @@ def test_the_default_packing_ends_loaded_and_as_the_package_loads_it(
     assert run.path["leg"].iloc[-1] == "unloading"
 
 
-STRAIN = {"target": "edge_reduction", "value": 0.4, "states": 2, "unloading": True}
-STRESS = {"target": "mean_stress", "value": [1e5, 1e6], "unloading": True}
+STRAIN = Loading("edge_reduction", 0.4, 2, approach_solid_fraction=0.5, unloading=True)
+STRESS = Loading("mean_stress", [1e5, 1e6], approach_solid_fraction=0.5, unloading=True)
 
 
 # Every two of the choices meet.
@@ -159,7 +160,7 @@ def test_a_packing_of_the_workflow_is_loaded_as_the_package_loads_it(
         0.16,
         boundary=boundary,
         law=law,
-        loading={**loading, "approach_solid_fraction": 0.5},
+        loading=loading,
         strain_step=1.5e-2,
     )
     data = tmp_path / "packing.data"

@@ -143,10 +143,10 @@ def test_files_of_a_module_are_those_of_all_it_imports_in_turn():
         "statistics.intervals",
         "errors",
     }
-    assert closure("samples.certificate") == {
-        "samples.certificate",
-        "loading.jamming",
-        "samples.ensemble",
+    assert closure("packings.placement") == {
+        "packings.placement",
+        "packings.cell_grid",
+        "packings.geometry",
         "errors",
     }
     assert source_files(file_of("errors")) == []
@@ -158,18 +158,6 @@ def test_files_are_named_once_in_order_and_exist():
     assert all(Path(file).is_file() for file in files)
 
 
-def test_modules_in_a_folder_of_the_package_are_followed():
-    assert imported_modules(file_of("plotting.energy")) == {
-        "plotting.style",
-        "statistics.intervals",
-    }
-    assert closure("plotting.energy") == {
-        "plotting.energy",
-        "plotting.style",
-        "statistics.intervals",
-    }
-
-
 def test_direct_imports_leave_out_what_those_import():
     assert imported_modules(file_of("branches.lengths")) == {
         "gradings.distribution",
@@ -178,6 +166,7 @@ def test_direct_imports_leave_out_what_those_import():
     assert imported_modules(file_of("loading.states")) == {
         "packings.contact_laws",
         "packings.contacts",
+        "packings.geometry",
         "errors",
     }
 

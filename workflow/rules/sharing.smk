@@ -7,7 +7,6 @@ rule sharing:
         paths=of_all_seeds("path.csv"),
         contacts=of_all_seeds("contacts.parquet"),
         walls=of_all_seeds("wall_contacts.parquet"),
-        pairs=of_all_seeds("pairs.dump.gz"),
         certificate="results/{sample}/certificate.csv",
         data=data_files,
         code=code("sharing"),

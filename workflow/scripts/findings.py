@@ -6,6 +6,7 @@ from branchcrush.files.tables import provenance, read_json, read_table, write_ta
 from branchcrush.jobs import job
 from branchcrush.study.exponents import common_distance
 from branchcrush.study.findings import finding_row
+from branchcrush.study.kinds import SampleKind
 
 with job(snakemake.log[0]):
     files, samples = snakemake.input, snakemake.params.samples
@@ -14,7 +15,9 @@ with job(snakemake.log[0]):
     distance = common_distance([path for path in paths if "reason" not in path])
     states = [read_table(path) for path in files.states]
     rows = [
-        finding_row(name, sample, *map(read_json, results), path, table, distance, intervals)
+        finding_row(
+            name, SampleKind.of(sample), *map(read_json, results), path, table, distance, intervals
+        )
         for (name, sample), *results, path, table in zip(
             samples.items(), files.fits, files.numbers, files.shared, paths, states, strict=True
         )

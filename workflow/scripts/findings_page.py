@@ -8,11 +8,15 @@ from branchcrush.plotting import study as plots
 from branchcrush.plotting import study_networks as networks
 from branchcrush.plotting.style import SIZE, figure, reason
 from branchcrush.study.findings import GOOD_DISTANCE, verdicts
+from branchcrush.study.kinds import SampleKind
 from branchcrush.study.pages import render_findings
 
 with job(snakemake.log[0]):
     files, output, samples = snakemake.input, snakemake.output, snakemake.params.samples
-    styles, dpi = plots.sample_styles(samples), snakemake.params.dpi
+    styles, dpi = (
+        plots.sample_styles({n: SampleKind.of(s) for n, s in samples.items()}),
+        snakemake.params.dpi,
+    )
     rows, states = read_table(files.rows), read_table(files.states)
     rows = rows.astype(object).where(rows.notna(), None)
     known = rows[rows["exponent_at_end"].notna()] if "exponent_at_end" in rows else rows[:0]

@@ -5,14 +5,14 @@ from branchcrush.files.tables import provenance, read_packing, write_json, write
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.representativity import representativity, representativity_report
 from branchcrush.jobs import job
-from branchcrush.loading.targets import loaded_solid_fraction
+from branchcrush.loading.targets import Loading
 
 with job(snakemake.log[0]):
     sample = snakemake.params.sample
     grading = grading_of(sample["grading"])
     radii = [read_packing(path)[1] for path in snakemake.input.packings]
     ultimate = ultimate_grading(grading, snakemake.params.ultimate_alpha)
-    end = loaded_solid_fraction(sample["initial_solid_fraction"], sample["loading"])
+    end = Loading(**sample["loading"]).end(sample["initial_solid_fraction"])
     report = representativity_report(
         representativity(grading, sample["grains"], end), grading, radii
     )

@@ -8,10 +8,10 @@ from branchcrush.config.build import grading_of
 from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.jobs import job
 from branchcrush.lammps.files import read_dump
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import certificate, gradings, loading
 from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import SIZE, drawn, figure
-from branchcrush.samples.certificate import OVERLAP_FLAG
 from branchcrush.samples.ensemble import end_of_loading, stacked
 
 WIDE, SQUARE = (2 * SIZE[0], SIZE[1]), (2 * SIZE[0], 2 * SIZE[1])

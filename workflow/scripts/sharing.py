@@ -1,27 +1,16 @@
 """Measure how grains and branches share energy, force and stress, near jamming and at the end."""
 
-from itertools import islice
-
 from branchcrush.config.build import grading_of
 from branchcrush.errors import FitError
 from branchcrush.files.seeds import read_contacts
 from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
-from branchcrush.forces.fabric import branch_vectors
 from branchcrush.jobs import job
-from branchcrush.lammps.files import read_dump
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.packings.network import state_network
+from branchcrush.packings.network import state_networks
 from branchcrush.samples.branch_lengths import sample_classes
 from branchcrush.samples.ensemble import certified_loading
 from branchcrush.samples.sharing import TABLES, both_states, shared_in_state
 from branchcrush.statistics.bins import bin_edges
-
-
-def vectors_in(dump, states):
-    """Read a dump once, as far as the last of the states."""
-    frames = islice(read_dump(dump), max(states) + 1)
-    return {state: branch_vectors(f) for state, f in enumerate(frames) if state in states}
-
 
 with job(snakemake.log[0]):
     files, params = snakemake.input, snakemake.params
@@ -33,17 +22,15 @@ with job(snakemake.log[0]):
             read_table(files.certificate), [read_table(path) for path in files.paths]
         )
         states = [int(paths[0]["state"].iloc[row]) for row in (0, -1)]
-        networks, vectors = [], []
+        networks = []
         for number in used:
-            packing = read_contacts(files, number)
+            packing = read_contacts(files, number, vectors=True)
             if not networks:
                 classes = sample_classes(grading, *packing, states[-1])
-            networks.append({state: state_network(*packing, state) for state in states})
-            vectors.append(vectors_in(files.pairs[number], states))
+            networks.append(dict(zip(states, state_networks(*packing, states), strict=True)))
         found = {
             (where, state): shared_in_state(
                 [seed[state] for seed in networks],
-                [seed[state] for seed in vectors],
                 edges,
                 classes,
                 exponent,

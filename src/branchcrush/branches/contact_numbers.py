@@ -74,7 +74,7 @@ def contact_sums(network, edges):
     """
     classes = len(edges) - 1
     group = bin_numbers(network.radius, edges)
-    contacts, bearing = network.contacts, ~network.rattlers
+    contacts, bearing = network.contacts, network.bearing
     grains, radii, touching, held, held_touching = (
         np.bincount(group, weights, minlength=classes)
         for weights in (None, network.radius, contacts, bearing, bearing * contacts)
@@ -181,8 +181,7 @@ def contact_number_table(sums, edges, *, confidence=0.95, resamples=2000, rng):
         "grains": grains.astype(int),
     }
     for row, name in enumerate(names):
-        for part, values in zip(("", "_low", "_high"), found, strict=True):
-            table[name + part] = values[row]
+        table |= found.part(row).named(name)
     return table
 
 

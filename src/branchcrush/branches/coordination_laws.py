@@ -141,7 +141,7 @@ def isostatic_number(network):
     float
         6 in a periodic cell; nan when all grains are rattlers.
     """
-    bearing = ~network.rattlers
+    bearing = network.bearing
     if not bearing.any():
         return float("nan")
     return float(ISOSTATIC - network.wall_contacts[bearing].sum() / bearing.sum())
@@ -215,10 +215,11 @@ def jamming_law_fit(
             return np.stack([product / square, exponent, free], axis=1)
 
     limits = pooled_interval(sums, laws, confidence=confidence, resamples=resamples, rng=rng)
-    found = {"states": states, "states_not_above": not_above}
-    for part, values in zip(("", "_low", "_high"), limits, strict=True):
-        for name, value in zip(("prefactor", "exponent"), values, strict=False):
-            found[name + part] = float(value)
-    # Without limits: it is the law's value at phi - phi_J = 1, far from all states.
-    found["free_prefactor"] = float(limits.estimate[2])
-    return found
+    return {
+        "states": states,
+        "states_not_above": not_above,
+        **limits.part(0).named("prefactor"),
+        **limits.part(1).named("exponent"),
+        # Without limits: it is the law's value at phi - phi_J = 1, far from all states.
+        "free_prefactor": float(limits.estimate[2]),
+    }

@@ -1,9 +1,15 @@
-"""What a job makes of its plain settings: the grading that a section describes."""
+"""What a job makes of its plain settings: the grading that a section describes, the sample."""
 
-from branchcrush.config.fields import UNITS
+from collections.abc import Mapping
+from dataclasses import fields
+
+from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
 from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
 from branchcrush.gradings import curves as gradings
+from branchcrush.loading.sample import Sample
+from branchcrush.loading.targets import Loading
+from branchcrush.packings.contact_laws import contact_law
 
 
 def grading_of(section):
@@ -82,3 +88,41 @@ def _from_file(section, to_radius):
         named = str(error) if str(path) in str(error) else f"{path}: {error}"
         raise GradingError(named) from None
     raise GradingError(f"there is no form of grading called {form!r}")
+
+
+def sample_of(settings: Mapping) -> Sample:
+    """Return the sample that plain settings describe.
+
+    Parameters
+    ----------
+    settings : mapping
+        Of `config.schema.Sample.settings`, all of it or what a rule is given of it.
+
+    Returns
+    -------
+    Sample
+
+    Raises
+    ------
+    GradingError
+        When a file of the grading is not usable.
+
+    Examples
+    --------
+    >>> grading = {"form": "single", "size": "radius", "unit": "mm", "value": 1.0}
+    >>> sample = sample_of({"grading": grading, "sampling": "random", "grains": 10,
+    ...                     "boundary": "periodic", "initial_solid_fraction": 0.2,
+    ...                     "contact": {"law": "linear", "normal_stiffness": 1e6},
+    ...                     "loading": {"target": "solid_fraction", "value": 0.7},
+    ...                     "strain_step": 1e-3})
+    >>> sample.periodic, sample.end, sample.law.name
+    (True, 0.7, 'linear')
+    """
+    known = {field.name for field in fields(Sample)} - {"grading", "loading", "seeds"}
+    return Sample(
+        grading=grading_of(settings["grading"]),
+        law=contact_law(**settings["contact"]),
+        loading=Loading(**settings["loading"]),
+        seeds=tuple(settings.get("seeds", ())),
+        **{key: value for key, value in settings.items() if key in known},
+    )

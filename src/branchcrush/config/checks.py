@@ -12,7 +12,7 @@ from branchcrush.config.messages import shown
 from branchcrush.config.schema import REFINED, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.representativity import representativity
-from branchcrush.loading.targets import expected_overlap_ratio, loaded_solid_fraction
+from branchcrush.loading.targets import Loading, expected_overlap_ratio
 from branchcrush.packings.contact_laws import contact_law
 
 # Grains pressed together by half their radius are no spheres in contact any more.
@@ -88,7 +88,7 @@ def sample_problems(section):
         sample = Sample.model_validate({**needed, "seeds": 1})
     except ValidationError:
         return []
-    end = loaded_solid_fraction(sample.initial_solid_fraction, sample.loading.plain())
+    end = Loading(**sample.loading.plain()).end(sample.initial_solid_fraction)
     standing = representativity(grading, sample.grains, end)
     if standing.verdict == "refuse" and not sample.allow_unrepresentative:
         problems.append(

@@ -6,9 +6,6 @@ from typing import Annotated
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo
 from pydantic_core import PydanticCustomError
 
-# [m]
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
-
 
 class Section(BaseModel):
     """A section of the configuration: no keys but its own, and none changed once checked."""

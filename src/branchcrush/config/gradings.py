@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, field_validator
 
-from branchcrush.config.fields import UNITS, Positive, Section, number, refusal
+from branchcrush.config.fields import Positive, Section, number, refusal
+from branchcrush.config.units import UNITS
 
 # Of a grain [m]. Outside of them it is the unit that is wrong.
 _SMALLEST, _LARGEST = 1e-9, 1e3

@@ -2,8 +2,9 @@
 
 from itertools import pairwise
 
+import numpy as np
+
 from branchcrush.config.fields import number_of, one_line, refusal
-from branchcrush.loading.targets import stresses
 
 _RANGE = {"from", "to", "states"}
 _MOST_STATES = 1000
@@ -58,7 +59,7 @@ def _range(value):
     ends = [_stress(value[end]) for end in ("from", "to")]
     if ends[0] >= ends[1]:
         raise _refused(f"from {ends[0]:g} Pa must be below to {ends[1]:g} Pa")
-    return stresses({"from": ends[0], "to": ends[1], "states": int(states)})
+    return np.geomspace(*ends, int(states)).tolist()  # even in the logarithm
 
 
 def _stress(value):

@@ -39,6 +39,7 @@ def crushing_path(
     strain: shape (states,), compression positive, loading or unloading, the first state reached
     straight from the onset [-]; elasticity: Psi_0(eps); the others as in `CrushingLaw`.
     Raises what `CrushingLaw` raises, and ValueError for a strain that is not a finite 1-D array.
+    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
     >>> path = crushing_path([0.05, 0.1, 0.0], PowerLawElasticity(1.0, 1.0), 0.6, 1e-3, 2.0)
     >>> print(path.crushing.round(4), np.allclose(path.work, path.stored + path.dissipated))
     [0.     0.4226 0.4226] True

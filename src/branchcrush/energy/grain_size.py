@@ -53,11 +53,10 @@ def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resam
     for name in ("all_grains", "load_bearing"):
         seeds = []
         for network in networks:
-            kept = ~network.rattlers if name == "load_bearing" else slice(None)
+            kept = network.bearing if name == "load_bearing" else slice(None)
             energy = grain_energy(network, contact_exponent)[kept]
             seeds.append((np.log(network.radius[kept] / radius_max), energy))
         fit = gamma_fit(seeds, _power)
         limits = parameter_intervals(fit, confidence=confidence, resamples=resamples, rng=rng)
-        for part, values in zip(("", "_low", "_high"), limits, strict=True):
-            found[f"exponent_{name}{part}"] = float(values[1])
+        found |= limits.part(1).named(f"exponent_{name}")
     return found

@@ -10,15 +10,13 @@ import numpy as np
 
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.intervals import Resampling, pooled_interval
 
 # Over the mean energy of the packing: contacts of rattlers hold what relaxation leaves, 1e-10 of it
 # or less, and forces below 1e-4 of the mean are no part of the network.
 _RESIDUE = 1e-8
 # Seeds are left out in so many groups, or one by one.
 _FOLDS = 4
-# Draws of the same seeds for every predictor, the same whenever a result is made again.
-_RESAMPLING = 22
 
 
 class Predictor(NamedTuple):
@@ -142,7 +140,7 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
         except FitError as error:
             entry["reason"] = str(error)
             continue
-        limits = parameter_intervals(fit, rng=_rng(), **options)
+        limits = parameter_intervals(fit, rng=Resampling.PREDICTORS.rng(), **options)
         entry["parameters"] = _named(predictor.names, limits)
         left_out[name], reason = _judged(seeds, predictor.design, fit.parameters)
         entry |= _explained(left_out, name, nothing, options)
@@ -152,11 +150,8 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
 
 
 def _named(names, limits):
-    rows = zip(*(values[1:] for values in limits), strict=True)
-    return {
-        name: dict(zip(("estimate", "low", "high"), map(float, row), strict=True))
-        for name, row in zip(names, rows, strict=True)
-    }
+    # The first parameter is the scale.
+    return {name: limits.part(number)._asdict() for number, name in enumerate(names, start=1)}
 
 
 def _judged(seeds, design, start=None):
@@ -189,8 +184,10 @@ def _explained(left_out, name, nothing, options):
     entry = {}
     for key, other in pairs.items():
         sums = np.stack([other - left_out[name], nothing], axis=1)
-        found = pooled_interval(sums, lambda x: x[:, 0] / x[:, 1], rng=_rng(), **options)
-        entry |= dict(zip((key, f"{key}_low", f"{key}_high"), found, strict=True))
+        share = pooled_interval(
+            sums, lambda x: x[:, 0] / x[:, 1], rng=Resampling.PREDICTORS.rng(), **options
+        )
+        entry |= share.named(key)
     return entry
 
 
@@ -235,15 +232,11 @@ def curvature(seeds, *, confidence=0.95, resamples=2000):
         return np.stack([bend, slope + 2 * bend * short, slope, slope + 2 * bend * long], axis=1)
 
     limits = parameter_intervals(
-        fit, wanted, confidence=confidence, resamples=resamples, rng=_rng()
+        fit, wanted, confidence=confidence, resamples=resamples, rng=Resampling.PREDICTORS.rng()
     )
     names = ("curvature", "slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
     return {
-        name + part: float(value)
-        for part, values in zip(("", "_low", "_high"), limits, strict=True)
-        for name, value in zip(names, values, strict=True)
+        key: value
+        for number, name in enumerate(names)
+        for key, value in limits.part(number).named(name).items()
     }
-
-
-def _rng():
-    return np.random.default_rng(_RESAMPLING)

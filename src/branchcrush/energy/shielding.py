@@ -11,7 +11,7 @@ from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_energy, neighbour_ratio
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.intervals import Interval, pooled_interval
 from branchcrush.statistics.power_law import power_law_fit
 
 # Edges of r_min/r_max, and of a grain's radius over that of its neighbours.
@@ -107,39 +107,32 @@ def branch_shielding(seeds, *, confidence=0.95, resamples=2000, rng):
     count, ratio = count.sum(axis=0), ratio.sum(axis=0)
     with np.errstate(invalid="ignore"):
         mean_ratio = ratio / count
-    names = ("energy_ratio", "energy_ratio_low", "energy_ratio_high")
     table = {
         "radius_ratio_low": _RADIUS_RATIOS[:-1],
         "radius_ratio_high": _RADIUS_RATIOS[1:],
         "mean_radius_ratio": mean_ratio,
         "branches": count.astype(int),
-        **{name: values[:-1] for name, values in zip(names, found, strict=True)},
+        **found.part(slice(-1)).named("energy_ratio"),
     }
-    summary = {
-        name + part: float(values[k])
-        for part, values in zip(("", "_low", "_high"), limits, strict=True)
-        for k, name in ((1, "length_exponent"), (2, "shielding_exponent"))
-    }
-    estimate, low, high = (float(values[-1]) for values in found)
-    summary |= {
+    unequal_over_equal = found.part(-1)
+    # Branches less unequal than the claim's are counted for what they hold, and do not answer it.
+    as_claimed = unequal[tenth - 1]
+    answer = _answer(unequal_over_equal) if as_claimed >= _FEWEST_BRANCHES else "undecided"
+    return table, {
+        **limits.part(1).named("length_exponent"),
+        **limits.part(2).named("shielding_exponent"),
         "radius_ratio_to": float(_RADIUS_RATIOS[to]),
         "unequal_branches": int(unequal[to - 1]),
-        "unequal_over_equal": estimate,
-        "unequal_over_equal_low": low,
-        "unequal_over_equal_high": high,
+        **unequal_over_equal.named("unequal_over_equal"),
+        "claim": answer if as_claimed else "no such branch",
     }
-    # Branches less unequal than the claim's are counted for what they hold, and do not answer it.
-    found_unequal = unequal[tenth - 1]
-    enough = _answer(low, high) if found_unequal >= _FEWEST_BRANCHES else "undecided"
-    summary["claim"] = enough if found_unequal else "no such branch"
-    return table, summary
 
 
-def _answer(low, high):
+def _answer(interval):
     """Return what an interval says of the claim; without one, as with one seed, nothing."""
-    if high < VANISHED:
+    if interval.high < VANISHED:
         return "supported"
-    return "contradicted" if low > VANISHED else "undecided"
+    return "contradicted" if interval.low > VANISHED else "undecided"
 
 
 def _length_and_ratio(theta, small=None, large=None):
@@ -200,7 +193,7 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
         group = np.searchsorted(edges, ratio[touching], side="right") - 1
         largest = max(largest, ratio[touching].max(initial=0.0))
         seed = []
-        for kept in (np.ones(energy.size, dtype=bool), ~network.rattlers):
+        for kept in (np.ones(energy.size, dtype=bool), network.bearing):
             weight = kept[touching].astype(float)
             seed.append([np.bincount(group, weight * p[touching], bins) for p in parts])
         whole = np.array([0.0 if p is ratio else p.sum() for p in parts])
@@ -225,9 +218,9 @@ def grain_shielding(networks, contact_exponent, *, confidence=0.95, resamples=20
         "mean_neighbour_ratio": mean_ratio.ravel(),
         "grains": counts.astype(int).ravel(),
     }
-    for k, reading in enumerate(_READINGS):
-        for part, values in zip(("", "_low", "_high"), found, strict=True):
-            table[f"energy_per_{reading}{part}"] = values[k].ravel()
+    for number, reading in enumerate(_READINGS):
+        interval = Interval(*(values[number].ravel() for values in found))
+        table |= interval.named(f"energy_per_{reading}")
     return table, _claim(sums[:, 0], largest, {**options, "rng": rng})
 
 
@@ -253,12 +246,11 @@ def _claim(sums, largest, options):
         "neighbour_ratio_from": float(_NEIGHBOUR_RATIOS[first]),
         "grains": int(held[first]),
     }
-    for k, reading in enumerate(_READINGS):
-        estimate, low, high = (float(values[k]) for values in limits)
-        name = f"energy_per_{reading}"
-        summary |= {name: estimate, f"{name}_low": low, f"{name}_high": high}
-        enough = _answer(low, high) if reaching >= _FEWEST else "undecided"
-        summary[f"claim_per_{reading}"] = enough if reaching else "no such grain"
+    for number, reading in enumerate(_READINGS):
+        interval = limits.part(number)
+        summary |= interval.named(f"energy_per_{reading}")
+        answer = _answer(interval) if reaching >= _FEWEST else "undecided"
+        summary[f"claim_per_{reading}"] = answer if reaching else "no such grain"
     return summary
 
 

@@ -7,6 +7,9 @@ whatever the scale of its energy, and the amplitude is free.
 
 import numpy as np
 
+# n, by the paper.
+PAPER_EXPONENT = 3.0
+
 
 def energy_split(sums, fit, radius_max):
     r"""Return the bins of the energy-split function, scaled by the fitted law.
@@ -33,6 +36,7 @@ def energy_split(sums, fit, radius_max):
 
     Examples
     --------
+    >>> from branchcrush.statistics.power_law import PowerLaw
     >>> sums = np.array([[9.0, 4.0], [9.0, 8.0], [9.0, 32.0]])
     >>> table, reference = energy_split(sums, PowerLaw(1.0, 3.0), 1.1)
     >>> table["f"].tolist(), reference

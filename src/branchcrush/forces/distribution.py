@@ -74,7 +74,7 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
         "force_low": edges[:-1],
         "force_high": edges[1:],
         "contacts": counts.sum(axis=0),
-        **dict(zip(("density", "density_low", "density_high"), found, strict=True)),
+        **found.named("density"),
     }
 
 
@@ -153,13 +153,12 @@ def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
         return np.where(number[:, None] > 1, np.stack(found, axis=1), np.nan)
 
     limits = pooled_interval(sums, tail, confidence=confidence, resamples=resamples, rng=rng)
-    names = ("share_above", "decay_rate", "squared_variation")
-    found = {
-        name + part: float(values[k])
-        for part, values in zip(("", "_low", "_high"), limits, strict=True)
-        for k, name in enumerate(names)
+    return {
+        "threshold": threshold,
+        **limits.part(0).named("share_above"),
+        **limits.part(1).named("decay_rate"),
+        **limits.part(2).named("squared_variation"),
     }
-    return {"threshold": threshold, **found}
 
 
 def force_by_length(networks, edges, *, confidence=0.95, resamples=2000, rng):
@@ -203,7 +202,7 @@ def force_by_length(networks, edges, *, confidence=0.95, resamples=2000, rng):
         "branch_length_low_m": np.asarray(edges[:-1]),
         "branch_length_high_m": np.asarray(edges[1:]),
         "branches": sums[:, 0].sum(axis=0).astype(int),
-        **dict(zip(("mean_force", "mean_force_low", "mean_force_high"), found, strict=True)),
+        **found.named("mean_force"),
     }, exponent
 
 
@@ -236,11 +235,7 @@ def force_network_result(networks, edges, *, confidence=0.95, resamples=2000, rn
         "force_by_length": by_length,
     }
     return tables, {
-        **_named("share_below_mean", below),
+        **below.named("share_below_mean"),
         "tails": [force_tail(forces, threshold, **options) for threshold in THRESHOLDS],
-        "by_length": {} if exponent is None else _named("exponent", exponent),
+        "by_length": {} if exponent is None else exponent.named("exponent"),
     }
-
-
-def _named(name, interval):
-    return {name + part: value for part, value in zip(("", "_low", "_high"), interval, strict=True)}

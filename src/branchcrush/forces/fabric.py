@@ -3,35 +3,6 @@
 import numpy as np
 
 
-def branch_vectors(frame):
-    r"""Return the branch vectors of a frame of the pair dump in the order of the contacts table.
-
-    LAMMPS lists contacts in an order of its own. `loading.states.state_contacts`, and so a
-    `packings.network.Network`, has them sorted by grain; forces of the one must not weigh vectors
-    of the other.
-
-    Parameters
-    ----------
-    frame : dict of array_like, shape (M,)
-        id1, id2, branch, branch_x, branch_y and branch_z, as `lammps.files.read_dump`.
-
-    Returns
-    -------
-    ndarray, shape (M, 3)
-        [m]
-
-    Examples
-    --------
-    >>> frame = {"id1": [3, 2], "id2": [2, 1], "branch": [5.0, 1.0],
-    ...          "branch_x": [3.0, 1.0], "branch_y": [4.0, 0.0], "branch_z": [0.0, 0.0]}
-    >>> branch_vectors(frame).tolist()
-    [[1.0, 0.0, 0.0], [3.0, 4.0, 0.0]]
-    """
-    ends = np.sort([frame["id1"], frame["id2"]], axis=0)
-    order = np.lexsort((frame["branch"], ends[1], ends[0]))
-    return np.column_stack([frame[f"branch_{axis}"] for axis in "xyz"])[order]
-
-
 def fabric_tensor(vectors, weights=None):
     r"""Return the fabric tensor of branches, or of their forces.
 

@@ -35,7 +35,7 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
     for network in networks:
         group = bin_numbers(network.radius, edges)
         stress, volume = grain_stress_volume(network), sphere_volume(network.radius)
-        bearing = ~network.rattlers
+        bearing = network.bearing
         parts = (stress, volume, bearing * stress, bearing * volume)
         sums.append([np.bincount(group, part, classes) for part in parts])
         grains += np.bincount(group, minlength=classes)
@@ -58,8 +58,7 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
         "grains": grains.astype(int),
     }
     for row, name in enumerate(("stress_ratio", "load_bearing_stress_ratio")):
-        for part, values in zip(("", "_low", "_high"), limits, strict=True):
-            table[name + part] = values[row]
+        table |= limits.part(row).named(name)
     return table
 
 
@@ -133,12 +132,11 @@ def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
         resamples=resamples,
         rng=rng,
     )
-    table, summary = {"volume_share": shares}, {}
-    for part, values in zip(("", "_low", "_high"), limits, strict=True):
-        table[f"stress_share{part}"] = values[:-2]
-        summary[f"coarse_half_stress_share{part}"] = float(values[-2])
-        summary[f"sharing_index{part}"] = float(values[-1])
-    return table, summary
+    table = {"volume_share": shares, **limits.part(slice(-2)).named("stress_share")}
+    return table, {
+        **limits.part(-2).named("coarse_half_stress_share"),
+        **limits.part(-1).named("sharing_index"),
+    }
 
 
 def stress_sharing_result(networks, classes, *, confidence=0.95, resamples=2000, rng):

@@ -66,9 +66,8 @@ def representativity(grading, grains, solid_fraction):
 
         Examples
         --------
-        >>> from branchcrush.packings.geometry import UNIT_SPHERE
-    from branchcrush.gradings.forms import fractal
-    from branchcrush.gradings.mixtures import single
+    >>> from branchcrush.gradings.forms import fractal
+    >>> from branchcrush.gradings.mixtures import single
         >>> representativity(single(1e-3), 1000, 0.6).verdict
         'accept'
         >>> few = representativity(fractal(5e-6, 1e-3, 2.6), 1000, 0.74)
@@ -134,9 +133,8 @@ def realised_gap(grading, radii):
 
         Examples
         --------
-        >>> from branchcrush.packings.geometry import UNIT_SPHERE
-    from branchcrush.gradings.mixtures import from_radii
-    from branchcrush.gradings.forms import uniform
+    >>> from branchcrush.gradings.mixtures import from_radii
+    >>> from branchcrush.gradings.forms import uniform
         >>> realised_gap(from_radii([1.0, 2.0]), [1.0, 2.0, 1.0, 2.0])
         0.0
         >>> realised_gap(uniform(1.0, 3.0), [3.0])

@@ -3,15 +3,20 @@
 import shutil
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
+from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.output import DUMPS, read_compression
 from branchcrush.lammps.run import run_script
+from branchcrush.loading.sample import Sample
 from branchcrush.loading.states import force_floor, stress_floor
 from branchcrush.loading.targets import (
     STEP_FORCE_EVALUATIONS,
@@ -20,9 +25,11 @@ from branchcrush.loading.targets import (
     loading_targets,
 )
 from branchcrush.packings.geometry import cube_edge
+from branchcrush.packings.placement import random_packing
 
-# Solid fraction of a loaded packing, on which a trial is made.
-_TRIAL = 0.68
+# Solid fraction of a loaded packing, on which a trial is made; more grains would take longer than
+# they tell.
+_TRIAL, _MOST_GRAINS = 0.68, 1000
 
 
 def compression_variables(radii, initial_solid_fraction, *, boundary, law, loading, strain_step):
@@ -36,8 +43,7 @@ def compression_variables(radii, initial_solid_fraction, *, boundary, law, loadi
         Of the loose packing [-].
     boundary : {"walls", "periodic"}
     law : contact_law.LinearContact or HertzContact
-    loading : dict
-        The config section.
+    loading : loading.targets.Loading
     strain_step : float
         Largest linear strain of a step [-].
 
@@ -54,9 +60,9 @@ def compression_variables(radii, initial_solid_fraction, *, boundary, law, loadi
 
     Examples
     --------
+    >>> from branchcrush.loading.targets import Loading
     >>> from branchcrush.packings.contact_laws import LinearContact
-    >>> loading = {"target": "edge_reduction", "value": 0.4, "states": 2, "unloading": False,
-    ...            "approach_solid_fraction": 0.3}
+    >>> loading = Loading("edge_reduction", 0.4, states=2, approach_solid_fraction=0.3)
     >>> variables = compression_variables(
     ...     [1e-3] * 8, 0.16, boundary="walls", law=LinearContact(1e6), loading=loading,
     ...     strain_step=1e-3)
@@ -75,7 +81,7 @@ def compression_variables(radii, initial_solid_fraction, *, boundary, law, loadi
             f"a mean stress of {min(targets):.4g} Pa is below {floor:.4g} Pa, which grains of this "
             "stiffness may have without carrying load: ask for more, or for softer contacts"
         )
-    approach_edge = cube_edge(radii, loading["approach_solid_fraction"])
+    approach_edge = cube_edge(radii, loading.approach_solid_fraction)
     return {
         "boundary": boundary,
         "law": law.name,
@@ -157,14 +163,71 @@ def compress(positions, radii, edge, variables, *, inputs, folder, log, ranks=1)
     return tables
 
 
-def trial(positions, radii, edge, variables, *, inputs, folder, log):
-    """Return the time that a force evaluation of a grain takes on this machine, tried out.
+class Packing(NamedTuple):
+    """Grains placed in a cube about the origin."""
 
-    Runs the approach of a packing and one strain step in the range of a loaded packing.
+    positions: np.ndarray  # shape (N, 3) [m]
+    radii: np.ndarray  # shape (N,) [m]
+    edge: float  # of the cube [m]
+
+
+def placed_packing(sample: Sample, rng: np.random.Generator) -> Packing:
+    """Return a loose packing of a sample: radii drawn from its grading, placed at random.
 
     Parameters
     ----------
-    positions, radii, edge, variables, inputs, folder, log
+    sample : Sample
+    rng : numpy.random.Generator
+        Draws the radii first, then the places.
+
+    Returns
+    -------
+    Packing
+
+    Raises
+    ------
+    PackingError
+        As `packings.placement.random_packing`.
+    """
+    radii = sampled_radii(sample.grading, sample.grains, sample.sampling, rng)
+    edge = cube_edge(radii, sample.initial_solid_fraction)
+    return Packing(random_packing(radii, edge, periodic=sample.periodic, rng=rng), radii, edge)
+
+
+def sample_variables(sample: Sample, radii: ArrayLike) -> dict:
+    """Return the variables of `in.compress` for a packing of a sample: `compression_variables`.
+
+    Parameters
+    ----------
+    sample : Sample
+    radii : array_like, shape (N,)
+        [m]
+
+    Returns
+    -------
+    dict
+    """
+    return compression_variables(
+        radii,
+        sample.initial_solid_fraction,
+        boundary=sample.boundary,
+        law=sample.law,
+        loading=sample.loading,
+        strain_step=sample.strain_step,
+    )
+
+
+def trial(sample: Sample, rng: np.random.Generator, *, inputs, folder, log) -> float:
+    """Return the time that a force evaluation of a grain takes on this machine, tried out.
+
+    Runs the approach of a packing and one strain step in the range of a loaded packing, of at most
+    1000 grains at the quantiles of the grading.
+
+    Parameters
+    ----------
+    sample : Sample
+    rng : numpy.random.Generator
+    inputs, folder, log
         As for `compress`.
 
     Returns
@@ -172,10 +235,13 @@ def trial(positions, radii, edge, variables, *, inputs, folder, log):
     float
         [s]
     """
-    variables = {**variables, "control": "edge", "targets": [cube_edge(radii, _TRIAL)]}
+    few = replace(sample, grains=min(sample.grains, _MOST_GRAINS), sampling="number_quantiles")
+    packing = placed_packing(few, rng)
+    variables = sample_variables(few, packing.radii)
+    variables |= {"control": "edge", "targets": [cube_edge(packing.radii, _TRIAL)]}
     variables |= {"strain_step": 1.0, "approach_steps": 20}
     with tempfile.TemporaryDirectory(dir=folder, prefix=".trial-") as scratch:
         start = time.perf_counter()
-        result = compress(positions, radii, edge, variables, inputs=inputs, folder=scratch, log=log)
+        result = compress(*packing, variables, inputs=inputs, folder=scratch, log=log)
         seconds = time.perf_counter() - start
-    return seconds / result.path["force_evaluations"][-1] / len(radii)
+    return seconds / result.path["force_evaluations"][-1] / few.grains

@@ -9,11 +9,10 @@ from pyarrow import csv
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.files import read_dump
 from branchcrush.loading.states import path_row, state_contacts, wall_contacts
-from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.packings.geometry import cube
 
 DUMPS = ("particles.dump.gz", "pairs.dump.gz")
-_LAWS = {"linear": LinearContact, "hertz": HertzContact}
 
 
 class Compression(NamedTuple):
@@ -81,7 +80,7 @@ def _columns(path):
 
 def _state(line, particles, pairs, *, variables, first_edge):
     """Return the row of the path, the contacts and the wall contacts of a state."""
-    law = _LAWS[variables["law"]](variables["stiffness"])
+    law = CONTACT_LAWS[variables["law"]].kind(variables["stiffness"])
     touching = state_contacts(pairs, particles["radius"], law)
     at_wall = wall_contacts(particles, line["edge"])
     row = path_row(

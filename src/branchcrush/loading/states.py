@@ -63,7 +63,8 @@ def state_contacts(pairs, radii, law):
     Returns
     -------
     dict of ndarray, shape (M,)
-        i, j (from 0, i < j), radius_i_m, radius_j_m, branch_length_m, overlap_m,
+        i, j (from 0, i < j), radius_i_m, radius_j_m, branch_length_m; branch_x, branch_y and
+        branch_z, from i to j through the periodic face where they touch there [m]; overlap_m,
         normal_force_N, energy_J.
 
     Raises
@@ -77,15 +78,15 @@ def state_contacts(pairs, radii, law):
     pair = i * len(radii) + j
     order = np.lexsort((branch, pair))
     i, j, branch, force = i[order], j[order], branch[order], force[order]
+    # LAMMPS tells where the first grain is, seen from the second. Added to 0, -0 is 0.
+    towards = np.where(first < second, -1.0, 1.0)[order]
+    vector = [towards * np.asarray(pairs[f"branch_{axis}"])[order] + 0.0 for axis in "xyz"]
     # In a small periodic cell two grains may touch through two faces: the vector tells which.
     again = np.diff(pair[order]) == 0
     if again.any():
         same = np.append(again, False) | np.append(False, again)
-        rows = order[same]
-        columns = np.column_stack([pairs[f"branch_{axis}"] for axis in "xyz"])
-        towards = np.where(first[rows] < second[rows], 1.0, -1.0)[:, None]
-        vector = towards * columns[rows]
-        if len(np.unique(np.column_stack([i[same], j[same], vector]), axis=0)) < len(rows):
+        rows = np.column_stack([column[same] for column in (i, j, *vector)])
+        if len(np.unique(rows, axis=0)) < len(rows):
             raise SimulationError("LAMMPS lists a contact twice")
     return {
         "i": i,
@@ -93,6 +94,7 @@ def state_contacts(pairs, radii, law):
         "radius_i_m": radii[i],
         "radius_j_m": radii[j],
         "branch_length_m": branch,
+        **{f"branch_{axis}": column for axis, column in zip("xyz", vector, strict=True)},
         "overlap_m": radii[i] + radii[j] - branch,
         "normal_force_N": force,
         "energy_J": law.energy(force, reduced_radius(radii[i], radii[j])),
@@ -112,9 +114,19 @@ def wall_contacts(particles, edge):
     Returns
     -------
     dict of ndarray, shape (W,)
-        i (from 0), wall ("-x" ... "+z"), overlap_m, normal_force_N.
+        i (from 0), wall ("-x" ... "+z"); direction_x, direction_y and direction_z, of unit length
+        from the grain to the wall [-]; overlap_m, normal_force_N.
     """
-    found = {"i": [], "wall": [], "overlap_m": [], "normal_force_N": []}
+    names = (
+        "i",
+        "wall",
+        "direction_x",
+        "direction_y",
+        "direction_z",
+        "overlap_m",
+        "normal_force_N",
+    )
+    columns: dict[str, list] = {name: [] for name in names}
     radius = np.asarray(particles["radius"])
     for axis in "xyz":
         force = np.asarray(particles[f"v_wall_f{axis}"])
@@ -122,11 +134,13 @@ def wall_contacts(particles, edge):
         touching = np.flatnonzero(force)
         # A wall pushes inwards: towards +x at -x.
         side = np.where(force[touching] > 0, -1, 1)
-        found["i"].append(touching)
-        found["wall"].append(np.where(side < 0, f"-{axis}", f"+{axis}"))
-        found["overlap_m"].append(radius[touching] - (edge / 2.0 - side * place[touching]))
-        found["normal_force_N"].append(np.abs(force[touching]))
-    return {name: np.concatenate(parts) for name, parts in found.items()}
+        columns["i"].append(touching)
+        columns["wall"].append(np.where(side < 0, f"-{axis}", f"+{axis}"))
+        for other in "xyz":
+            columns[f"direction_{other}"].append(np.where(other == axis, side, 0).astype(float))
+        columns["overlap_m"].append(radius[touching] - (edge / 2.0 - side * place[touching]))
+        columns["normal_force_N"].append(np.abs(force[touching]))
+    return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 
 def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
@@ -160,6 +174,7 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
     at_wall = np.bincount(walls["i"], minlength=grains)
     wall_distance = radius[walls["i"]] - walls["overlap_m"]
     i, j = contacts["i"], contacts["j"]
+    loose = rattlers(i, j, grains, at_wall)
     stress = mean_stress(
         contacts["branch_length_m"], force, volume, wall_distance, walls["normal_force_N"]
     )
@@ -187,8 +202,8 @@ def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
         "work_J": work,
         "dissipated_J": work - energy,
         "coordination_number": coordination_number(force.size, grains),
-        "mechanical_coordination_number": mechanical_coordination_number(i, j, grains, at_wall),
-        "rattler_fraction": float(rattlers(i, j, grains, at_wall).mean()),
+        "mechanical_coordination_number": mechanical_coordination_number(i, j, loose, at_wall),
+        "rattler_fraction": float(loose.mean()),
         "mean_normal_force_N": mean_force,
         "carries_load": mean_force > floor,
         "unbalanced_force_ratio": unbalanced_force_ratio(

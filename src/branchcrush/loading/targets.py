@@ -1,5 +1,8 @@
 """What a compression is asked for: where its states lie, and in how small steps it goes there."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from branchcrush.packings.geometry import cube_edge
@@ -16,6 +19,42 @@ STEP_FORCE_EVALUATIONS = 200
 # Of a packing loaded to a stress, whose solid fraction nobody knows beforehand.
 _LOADED = 0.64
 STRAIN_TARGETS = ("edge_reduction", "volume_reduction", "solid_fraction")
+
+
+@dataclass(frozen=True)
+class Loading:
+    """What a compression is asked for: a target, the states on the way, and whether it goes back.
+
+    Examples
+    --------
+    >>> Loading("edge_reduction", 0.4).states
+    15
+    """
+
+    target: str  # one of `STRAIN_TARGETS`, or mean_stress
+    value: float | Sequence[float]  # [-]; the increasing mean stresses of the states [Pa]
+    states: int = 15  # on the way to a strain; to stresses there is one at each
+    approach_solid_fraction: float = 0.55  # where strain steps begin, before grains carry load [-]
+    unloading: bool = False
+
+    @property
+    def stresses(self) -> list[float]:
+        """Mean stresses at which states are saved [Pa]; none on the way to a strain."""
+        if self.target != "mean_stress":
+            return []
+        return [float(value) for value in np.atleast_1d(self.value)]
+
+    def end(self, initial_solid_fraction: float) -> float:
+        """Return the solid fraction at the end, or about what a stress leads to [-].
+
+        Examples
+        --------
+        >>> Loading("mean_stress", [1e6]).end(0.16)
+        0.64
+        """
+        if self.stresses:
+            return _LOADED
+        return final_solid_fraction(initial_solid_fraction, self.target, self.value)
 
 
 def final_solid_fraction(initial_solid_fraction, target, value):
@@ -47,54 +86,6 @@ def final_solid_fraction(initial_solid_fraction, target, value):
     return value
 
 
-def loaded_solid_fraction(initial_solid_fraction, loading):
-    """Return the solid fraction at the end of a loading, or about what a stress leads to.
-
-    Parameters
-    ----------
-    initial_solid_fraction : float
-        [-]
-    loading : dict
-        The config section.
-
-    Returns
-    -------
-    float
-
-    Examples
-    --------
-    >>> loaded_solid_fraction(0.16, {"target": "mean_stress", "value": [1e6]})
-    0.64
-    """
-    if loading["target"] == "mean_stress":
-        return _LOADED
-    return final_solid_fraction(initial_solid_fraction, loading["target"], loading["value"])
-
-
-def stresses(mean_stress):
-    """Return the increasing mean stresses of a config key: a number, a list, or a range.
-
-    Parameters
-    ----------
-    mean_stress : float, list of float, or dict with from, to and states
-        [Pa]; a range is even in the logarithm.
-
-    Returns
-    -------
-    list of float
-        [Pa]
-
-    Examples
-    --------
-    >>> stresses({"from": 1.0, "to": 100.0, "states": 3})
-    [1.0, 10.0, 100.0]
-    """
-    if isinstance(mean_stress, dict):
-        stress = np.geomspace(mean_stress["from"], mean_stress["to"], mean_stress["states"])
-        return [float(value) for value in stress]
-    return [float(value) for value in np.atleast_1d(mean_stress)]
-
-
 def loading_targets(radii, initial_solid_fraction, loading):
     """Return what the states of a path are reached by: `edge` [m] or `stress` [Pa], and how many.
 
@@ -104,8 +95,7 @@ def loading_targets(radii, initial_solid_fraction, loading):
         [m]
     initial_solid_fraction : float
         Of the loose packing [-].
-    loading : dict
-        The config section.
+    loading : Loading
 
     Returns
     -------
@@ -115,21 +105,18 @@ def loading_targets(radii, initial_solid_fraction, loading):
 
     Examples
     --------
-    >>> loading = {"target": "solid_fraction", "value": 0.7, "states": 2, "unloading": True,
-    ...            "approach_solid_fraction": 0.5}
+    >>> loading = Loading("solid_fraction", 0.7, 2, approach_solid_fraction=0.5, unloading=True)
     >>> control, edges = loading_targets([1.0], 0.1, loading)
     >>> control, [round(edge, 4) for edge in edges]
     ('edge', [1.9232, 1.8155, 1.9232])
     """
-    if loading["target"] == "mean_stress":
-        control, targets = "stress", stresses(loading["value"])
-    else:
-        end = final_solid_fraction(initial_solid_fraction, loading["target"], loading["value"])
-        first = cube_edge(radii, loading["approach_solid_fraction"])
-        last, states = cube_edge(radii, end), loading["states"]
+    control, targets = "stress", loading.stresses
+    if not targets:
+        first = cube_edge(radii, loading.approach_solid_fraction)
+        last, states = cube_edge(radii, loading.end(initial_solid_fraction)), loading.states
         control = "edge"
         targets = [first + (last - first) * k / states for k in range(1, states + 1)]
-    return control, targets + (targets[-2::-1] if loading["unloading"] else [])
+    return control, targets + (targets[-2::-1] if loading.unloading else [])
 
 
 def strain_step(quality, refinement=1):
@@ -180,8 +167,7 @@ def planned_steps(loading, initial_solid_fraction, strain_step, overlap=0.0):
 
     Parameters
     ----------
-    loading : dict
-        The config section.
+    loading : Loading
     initial_solid_fraction : float
         [-]
     strain_step : float
@@ -195,19 +181,16 @@ def planned_steps(loading, initial_solid_fraction, strain_step, overlap=0.0):
 
     Examples
     --------
-    >>> loading = {"target": "edge_reduction", "value": 0.4, "states": 15, "unloading": False,
-    ...            "approach_solid_fraction": 0.55}
-    >>> planned_steps(loading, 0.16, 1.7e-3)
+    >>> planned_steps(Loading("edge_reduction", 0.4), 0.16, 1.7e-3)
     (60, 15)
     """
-    end = loaded_solid_fraction(initial_solid_fraction, loading)
-    strain = np.log(end / loading["approach_solid_fraction"]) / 3.0
-    if loading["target"] == "mean_stress":
-        states = len(loading["value"])
+    strain = np.log(loading.end(initial_solid_fraction) / loading.approach_solid_fraction) / 3.0
+    if loading.stresses:
+        states = len(loading.stresses)
         steps = int(np.ceil(max(strain, 0.0) / strain_step + overlap / strain_step)) + 4 * states
     else:
-        states = loading["states"]
+        states = loading.states
         steps = int(np.ceil(strain / states / strain_step - 1e-6)) * states
-    if loading["unloading"]:
+    if loading.unloading:
         steps, states = 2 * steps, 2 * states - 1
     return steps, states

@@ -3,9 +3,13 @@
 The reduced radius of two grains is R* = R_1 R_2/(R_1 + R_2); at a plane wall it is the radius.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
+# Overlap over the smaller radius from which on a contact law of small overlaps is stretched [-].
+OVERLAP_FLAG = 0.05
 
 
 @dataclass(frozen=True)
@@ -99,14 +103,33 @@ class HertzContact:
         return 0.4 * force * overlap
 
 
-def contact_law(law, **parameters):
+@dataclass(frozen=True)
+class LawEntry:
+    """What the registry knows of a contact law: how it is made, and what figures call it."""
+
+    kind: type[LinearContact] | type[HertzContact]
+    of_material: Callable[..., LinearContact | HertzContact]  # from the keys of its config section
+    label: str
+
+
+# A contact law is added here, in `config.schema` with its keys, and as lammps_inputs/mod.<name>.
+CONTACT_LAWS = {
+    "linear": LawEntry(
+        LinearContact, lambda normal_stiffness: LinearContact(normal_stiffness), "linear contacts"
+    ),
+    "hertz": LawEntry(HertzContact, HertzContact.of_material, "Hertz contacts"),
+}
+
+
+def contact_law(law: str, **parameters: float) -> LinearContact | HertzContact:
     """Return the contact law that a config section names.
 
     Parameters
     ----------
     law : {"linear", "hertz"}
     **parameters
-        normal_stiffness [N/m] of linear contacts; young_modulus [Pa] and poisson_ratio of Hertz's.
+        normal_stiffness [N/m] of linear contacts; young_modulus [Pa] and poisson_ratio [-] of
+        Hertz's.
 
     Returns
     -------
@@ -117,9 +140,7 @@ def contact_law(law, **parameters):
     >>> contact_law("linear", normal_stiffness=1e6)
     LinearContact(stiffness=1000000.0)
     """
-    if law == "linear":
-        return LinearContact(parameters["normal_stiffness"])
-    return HertzContact.of_material(parameters["young_modulus"], parameters["poisson_ratio"])
+    return CONTACT_LAWS[law].of_material(**parameters)
 
 
 def reduced_radius(radius, other):

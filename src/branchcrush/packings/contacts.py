@@ -88,7 +88,7 @@ def rattlers(i, j, grains, wall_contacts=None):
         i, j = i[~lost], j[~lost]
 
 
-def mechanical_coordination_number(i, j, grains, wall_contacts=None):
+def mechanical_coordination_number(i, j, loose, wall_contacts=None):
     r"""Return the mean number of contacts of the grains that are not rattlers.
 
     .. math:: \kappa^* = (2 M^* + W^*) / N^*
@@ -97,8 +97,12 @@ def mechanical_coordination_number(i, j, grains, wall_contacts=None):
 
     Parameters
     ----------
-    i, j, grains, wall_contacts
-        As for `rattlers`.
+    i, j : array_like of int, shape (M,)
+        The two grains of each contact, from 0.
+    loose : array_like of bool, shape (N,)
+        Which grains are rattlers: `rattlers` of the same contacts.
+    wall_contacts : array_like of int, shape (N,), optional
+        Contacts of each grain with walls.
 
     Returns
     -------
@@ -108,10 +112,10 @@ def mechanical_coordination_number(i, j, grains, wall_contacts=None):
     Examples
     --------
     >>> i, j = [0, 0, 0, 0, 1, 1, 1, 2, 2, 3], [1, 2, 3, 4, 2, 3, 4, 3, 4, 4]
-    >>> mechanical_coordination_number(i, j, 5)
+    >>> mechanical_coordination_number(i, j, rattlers(i, j, 5))
     4.0
     """
-    loose = rattlers(i, j, grains, wall_contacts)
+    loose = np.asarray(loose, dtype=bool)
     if loose.all():
         return 0.0
     held = ~(loose[np.asarray(i, dtype=int)] | loose[np.asarray(j, dtype=int)])

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
 from branchcrush.statistics.intervals import interval_text
 
@@ -115,10 +116,13 @@ def plot_exponent_path(path, fit, ax=None):
             label=f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds",
         )
     ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
-    ax.axhline(3.0, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
+    ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set(xlabel=label, ylabel="exponent n [-]")
     # With few seeds the band would dwarf the estimates.
-    low, high = min(3.0, path["exponent"].min()), max(3.0, path["exponent"].max())
+    low, high = (
+        min(PAPER_EXPONENT, path["exponent"].min()),
+        max(PAPER_EXPONENT, path["exponent"].max()),
+    )
     floor, ceiling = ax.get_ylim()
     ax.set_ylim(max(floor, low - 2.0), min(ceiling, high + 2.0))
     top = ax.twiny()

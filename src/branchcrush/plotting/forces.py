@@ -4,7 +4,7 @@ import numpy as np
 
 from branchcrush.forces.fabric import chance_range
 from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, draw_points, of_states
-from branchcrush.statistics.intervals import interval_text
+from branchcrush.statistics.intervals import Interval, interval_text
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}
 
@@ -131,9 +131,7 @@ def plot_force_by_length(table, summary, radius_max, ax=None):
         label, color = STATES[where]
         fit = summary[where]["forces"]["by_length"]
         if fit:
-            label += (
-                f": m = {interval_text(fit['exponent'], fit['exponent_low'], fit['exponent_high'])}"
-            )
+            label += f": m = {interval_text(*Interval.read(fit, 'exponent'))}"
         rows = rows[rows["branches"] >= 20]
         x = (rows["branch_length_low_m"] + rows["branch_length_high_m"]) / 2.0 / radius_max
         draw_points(ax, x, rows, "mean_force", color, label)
@@ -206,7 +204,7 @@ def plot_stress_sharing(table, summary, ax=None):
     for where, rows in of_states(table):
         label, color = STATES[where]
         stress = summary[where]["stress"]
-        limits = (stress[f"sharing_index{part}"] for part in ("", "_low", "_high"))
+        limits = Interval.read(stress, "sharing_index")
         ax.plot(
             rows["volume_share"],
             rows["stress_share"],

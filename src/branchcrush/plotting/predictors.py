@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.plotting.style import MEASURED, MODEL, OTHER, axes
+from branchcrush.statistics.intervals import LIMITS, interval_names
 
 # Of every predictor: what it is called, its colour and its marker.
 PREDICTORS = {
@@ -35,8 +37,8 @@ def plot_predictors(fit, ax=None):
         known = [p for p in predictors if p.get("explained_deviance") is not None]
         rows = [list(PREDICTORS).index(p["name"]) + shift for p in known]
         value, low, high = (
-            np.array([p[f"explained_deviance{part}"] for p in known], dtype=float)
-            for part in ("", "_low", "_high")
+            np.array([p[name] for p in known], dtype=float)
+            for name in interval_names("explained_deviance")
         )
         if known:
             ax.errorbar(
@@ -75,8 +77,7 @@ def plot_slopes(fit, ax=None):
         if "reason" in bend:
             continue
         value, low, high = (
-            np.array([bend[place + part] for place in places], dtype=float)
-            for part in ("", "_low", "_high")
+            np.array([bend[place + limit] for place in places], dtype=float) for limit in LIMITS
         )
         text = f"{label}: c = {bend['curvature']:.2f}"
         error = None
@@ -84,7 +85,7 @@ def plot_slopes(fit, ax=None):
             text += f" ({bend['curvature_low']:.2f} to {bend['curvature_high']:.2f})"
             error = [value - low, high - value]
         ax.errorbar(np.arange(3) + shift, value, error, fmt="o-", color=color, label=text)
-    ax.axhline(3.0, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
+    ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set_xticks(range(3), ["shortest 10 %", "mean", "longest 10 %"])
     ax.set(
         xlabel="branches, by length", ylabel="local exponent d ln E / d ln l [-]", xlim=(-0.3, 2.3)

@@ -1,7 +1,7 @@
 """How grains and branches share energy, force and stress."""
 
 from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, draw_points, of_states
-from branchcrush.statistics.intervals import interval_text
+from branchcrush.statistics.intervals import Interval, interval_text
 
 
 def plot_branch_shielding(table, summary, ax=None):
@@ -24,7 +24,7 @@ def plot_branch_shielding(table, summary, ax=None):
         label, color = STATES[where]
         rows = rows[rows["branches"] >= 20]
         fit = summary[where]["shielding"]["branches"]
-        limits = (fit[f"shielding_exponent{part}"] for part in ("", "_low", "_high"))
+        limits = Interval.read(fit, "shielding_exponent")
         draw_points(
             ax,
             rows["mean_radius_ratio"],

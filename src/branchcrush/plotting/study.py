@@ -5,14 +5,14 @@ from itertools import takewhile
 import numpy as np
 from matplotlib.lines import Line2D
 
+from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.plotting.branches import PREDICTIONS
 from branchcrush.plotting.predictors import PREDICTORS
 from branchcrush.plotting.style import FAINT, axes
-from branchcrush.study.exponents import PAPER
 from branchcrush.study.findings import GOOD_DISTANCE
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
-_LAWS = {"linear": "linear contacts", "hertz": "Hertz contacts"}
 
 
 def sample_styles(samples):
@@ -20,37 +20,32 @@ def sample_styles(samples):
 
     Parameters
     ----------
-    samples : dict
-        Settings by name.
+    samples : dict of study.kinds.SampleKind
+        By name.
 
     Returns
     -------
     dict of dict
         grading (what the names of all samples of the grading have in common), colour, line and
         filled, by name.
-
-    Examples
-    --------
-    >>> one = {"grading": {"form": "single"}, "boundary": "walls", "contact": {"law": "linear"}}
-    >>> sample_styles({"sand-walls": one})["sand-walls"]["grading"]
-    'sand-walls'
     """
     gradings = []
-    for settings in samples.values():
-        if settings["grading"] not in gradings:
-            gradings.append(settings["grading"])
+    for sample in samples.values():
+        if sample.grading not in gradings:
+            gradings.append(sample.grading)
     styles = {}
-    for name, settings in samples.items():
-        number = gradings.index(settings["grading"])
-        names = [n for n, other in samples.items() if other["grading"] == settings["grading"]]
+    for name, sample in samples.items():
+        described = sample.grading
+        number = gradings.index(described)
+        names = [n for n, other in samples.items() if other.grading == described]
         words = zip(*(n.split("-") for n in names), strict=False)
         common = "-".join(word[0] for word in takewhile(lambda word: len(set(word)) == 1, words))
         styles[name] = {
             "grading": common or name,
             "color": _COLOURS[number % len(_COLOURS)],
-            "line": "--" if settings["boundary"] == "walls" else "-",
-            "filled": settings["contact"]["law"] == "linear",
-            "law": settings["contact"]["law"],
+            "line": "--" if sample.boundary == "walls" else "-",
+            "filled": sample.law == "linear",
+            "law": sample.law,
         }
     return styles
 
@@ -73,7 +68,7 @@ def plot_exponents(paths, styles, law, ax=None):
     Axes
     """
     ax = axes(ax)
-    top = PAPER
+    top = PAPER_EXPONENT
     for name, path in paths.items():
         style = styles[name]
         if style["law"] != law:
@@ -85,9 +80,9 @@ def plot_exponents(paths, styles, law, ax=None):
         ax.plot(x, path["exponent"], style["line"], color=style["color"])
         low, high = path["exponent_low"], path["exponent_high"]
         ax.fill_between(x, low, high, color=style["color"], alpha=0.12, lw=0)
-    ax.axhline(PAPER, color="black", ls=":", lw=1.0)
+    ax.axhline(PAPER_EXPONENT, color="black", ls=":", lw=1.0)
     ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
-    ax.set(title=_LAWS[law], ylim=(0, 1.45 * top))
+    ax.set(title=CONTACT_LAWS[law].label, ylim=(0, 1.45 * top))
     shown = {n: s for n, s in styles.items() if n in paths and s["law"] == law}
     paper = Line2D([], [], color="black", ls=":", label="the paper's n = 3")
     ax.legend(

@@ -7,6 +7,8 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from branchcrush.statistics.intervals import interval_names
+
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
@@ -93,7 +95,7 @@ def of_states(table):
 
 def draw_points(ax, x, rows, column, color, label, marker="o", floor=0.0):
     """Draw points with their intervals, those below a floor cut there."""
-    y, low, high = (rows[column + part] for part in ("", "_low", "_high"))
+    y, low, high = (rows[name] for name in interval_names(column))
     error = None
     if low.notna().any():
         error = np.array([y - np.maximum(low, floor), high - y]).clip(0.0)

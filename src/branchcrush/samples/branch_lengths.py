@@ -21,12 +21,9 @@ from branchcrush.branches.predictions import (
     mode_length,
     pair_shares,
 )
-from branchcrush.packings.network import state_network
+from branchcrush.packings.network import state_network, state_networks
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import pooled_interval
-
-# The random state of the resampling: one and the same, so that a result can be made again.
-_RESAMPLING = 21
+from branchcrush.statistics.intervals import Resampling, pooled_interval
 
 
 class SeedContacts(NamedTuple):
@@ -80,8 +77,7 @@ def seed_contacts(grading, classes, radii, contacts, walls, states):
     """
     edges = fine_edges(*grading.support())
     numbers, lengths, sums, isostatic = [], [], [], []
-    for state in states:
-        network = state_network(radii, contacts, walls, state)
+    for network in state_networks(radii, contacts, walls, states):
         numbers.append(network.contacts)
         lengths.append(np.histogram(network.length, edges)[0])
         sums.append(contact_sums(network, classes))
@@ -160,7 +156,7 @@ def length_prediction_rows(seeds, models, edges, path, *, confidence, resamples)
             lambda x: x[:, 0] / x[:, 1],
             confidence=confidence,
             resamples=resamples,
-            rng=np.random.default_rng(_RESAMPLING),
+            rng=Resampling.CONTACTS.rng(),
         )
         total = counts.sum(axis=0)
         contacts = np.concatenate([seed.contacts[number] for seed in seeds])
@@ -210,7 +206,7 @@ def contact_number_rows(seeds, models, classes, path, *, confidence, resamples):
             classes,
             confidence=confidence,
             resamples=resamples,
-            rng=np.random.default_rng(_RESAMPLING),
+            rng=Resampling.CONTACTS.rng(),
         )
         numbers.append(pd.DataFrame({"state": state, **table, **predicted}))
         pairs.append(pd.DataFrame({"state": state, **pair_table(sums, classes)}))
@@ -254,7 +250,7 @@ def touching_summary(seeds, models, rows, path, *, confidence, resamples):
     for where, number in (("near_jamming", 0), ("end", -1)):
         state = path.iloc[number]
         sums = [seed.sums[number] for seed in seeds]
-        rng = np.random.default_rng(_RESAMPLING)
+        rng = Resampling.CONTACTS.rng()
         alike = assortativity(sums, confidence=confidence, resamples=resamples, rng=rng)
         grains = sum(seed.grains.sum() for seed in sums)
         here = [row for row in rows if row["state"] == state["state"]]
@@ -266,11 +262,8 @@ def touching_summary(seeds, models, rows, path, *, confidence, resamples):
             "rattler_fraction": float(1.0 - sum(s.bearing.sum() for s in sums) / grains),
             "mean_length_m": here[0]["measured_mean_length_m"],
             "mode_length_m": here[0]["measured_mode_length_m"],
-            **{
-                f"assortativity_of_{kind}{part}": float(values[k])
-                for k, kind in enumerate(("radii", "log_radii"))
-                for part, values in zip(("", "_low", "_high"), alike, strict=True)
-            },
+            **alike.part(0).named("assortativity_of_radii"),
+            **alike.part(1).named("assortativity_of_log_radii"),
             "predictions": [
                 {
                     "name": row["prediction"],

@@ -7,6 +7,8 @@ import pandas as pd
 
 from branchcrush.errors import FitError
 from branchcrush.loading.jamming import jamming_point
+from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.samples.ensemble import end_of_loading
 
 # Largest value of each measure in a certified state.
@@ -28,15 +30,11 @@ _MEANING = {
     "escaped": "grains outside the cell:",
     "lost": "grains lost:",
 }
-# A contact law of small overlaps is stretched from here on.
-OVERLAP_FLAG = 0.05
 # A path may end so when its loading is complete: words of lammps_inputs/mod.stress.
 _AFTER_LOADING = "comes loose on the way back"
 # What twice the strain steps may change before a sample counts as not converged.
 _LARGEST_CHANGE = 0.02
 _LARGEST_EXPONENT_CHANGE = 0.1
-# Unbalanced force ratio of a strain step that came to rest [-], the largest of `loading`.
-_STEP_AT_REST = 3.0e-2
 
 
 def state_certificates(seeds, paths):
@@ -134,7 +132,7 @@ def jamming_points(seeds, steps, paths, contact_exponent, stress_floor):
         row = {"seed": seed}
         for leg, part in (("loading", table[:turn]), ("unloading", table[turn:])):
             phi, error, states = np.nan, np.nan, 0
-            part = part[part["unbalanced_force_ratio"] <= _STEP_AT_REST]
+            part = part[part["unbalanced_force_ratio"] <= max(STEP_UNBALANCED_FORCE_RATIO.values())]
             loaded = part["mean_stress_Pa"] > floor
             with contextlib.suppress(FitError):
                 phi, error, states = jamming_point(

@@ -11,17 +11,15 @@ import pandas as pd
 from branchcrush.energy.predictors import branch_columns, compared_predictors, curvature
 from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
+from branchcrush.packings.network import state_rows
 from branchcrush.samples.ensemble import mean_path
 from branchcrush.statistics.bins import binned_sums
-from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.intervals import Interval, Resampling
 from branchcrush.statistics.power_law import binned_exponent
 
 # The columns of a contacts table that energies by length need, and those that all of it needs.
 ENERGY_COLUMNS = ("state", "radius_i_m", "radius_j_m", "energy_J")
 COLUMNS = (*ENERGY_COLUMNS, "branch_length_m", "overlap_m")
-
-# The random state of the resampling: one and the same, so that a result can be made again.
-_RESAMPLING = 20
 
 
 class Branches(NamedTuple):
@@ -111,15 +109,13 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     """
     sums = np.stack([seed.sums[-1] for seed in branches])
     law, exponent = binned_exponent(
-        sums, confidence=confidence, resamples=resamples, rng=np.random.default_rng(_RESAMPLING)
+        sums, confidence=confidence, resamples=resamples, rng=Resampling.EXPONENTS.rng()
     )
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
     fit = {
-        "exponent": exponent.estimate,
-        "exponent_low": exponent.low,
-        "exponent_high": exponent.high,
+        **exponent.named("exponent"),
         "confidence": confidence,
         "amplitude_J_per_m_n": float(law.amplitude),
         "reference_length_m": reference,
@@ -198,7 +194,7 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
                 sums,
                 confidence=confidence,
                 resamples=resamples,
-                rng=np.random.default_rng(_RESAMPLING),
+                rng=Resampling.EXPONENTS.rng(),
             )
         except FitError:  # hardly any contact, close to jamming
             exponent = Interval(np.nan, np.nan, np.nan)
@@ -207,9 +203,7 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
                 **state,
                 "median_overlap_ratio": _median_overlap_ratio(branches, number),
                 "branches": int(sums[:, 0].sum()),
-                "exponent": exponent.estimate,
-                "exponent_low": exponent.low,
-                "exponent_high": exponent.high,
+                **exponent.named("exponent"),
             }
         )
     return pd.DataFrame(rows)
@@ -236,12 +230,7 @@ def _mean(values):
 
 def _of_states(contacts, states):
     """Return the rows of each state as a table of its own."""
-    column = contacts["state"].to_numpy()
-    if np.any(column[1:] < column[:-1]):  # not as `simulation` leaves them, state after state
-        contacts = contacts.sort_values("state", kind="stable")
-        column = contacts["state"].to_numpy()
-    begin, end = (np.searchsorted(column, states, side) for side in ("left", "right"))
-    return [contacts.iloc[rows] for rows in map(slice, begin, end)]
+    return [contacts.iloc[rows] for rows in state_rows(contacts["state"], states)]
 
 
 def _length(table):

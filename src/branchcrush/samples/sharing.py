@@ -1,6 +1,5 @@
 """What the contact networks of a sample share: energy by grain and branch, forces, and stress."""
 
-import numpy as np
 import pandas as pd
 
 from branchcrush.energy.grain_size import EINAV, grain_energy_exponents
@@ -9,6 +8,7 @@ from branchcrush.errors import FitError
 from branchcrush.forces.distribution import force_network_result
 from branchcrush.forces.fabric import fabric_result
 from branchcrush.forces.stress import stress_sharing_result
+from branchcrush.statistics.intervals import Resampling
 
 TABLES = (
     "shielding_branches",
@@ -19,19 +19,15 @@ TABLES = (
     "stress_by_radius",
     "stress_sharing",
 )
-# The random state of the resampling: one and the same, so that a result can be made again.
-_RESAMPLING = 23
 
 
-def shared_in_state(networks, vectors, edges, classes, contact_exponent, *, confidence, resamples):
+def shared_in_state(networks, edges, classes, contact_exponent, *, confidence, resamples):
     """Return how the seeds of a sample share energy, force and stress in one state.
 
     Parameters
     ----------
     networks : list of networks.Network
-        One a seed.
-    vectors : list of array_like, shape (M, 3)
-        Branch vectors of each, in the order of its contacts: `forces.fabric.branch_vectors` [m].
+        One a seed, with branch vectors.
     edges : array_like, shape (n+1,)
         Bins of branch length, from the smallest diameter to the largest [m].
     classes : array_like, shape (K+1,)
@@ -51,7 +47,7 @@ def shared_in_state(networks, vectors, edges, classes, contact_exponent, *, conf
     options = {"confidence": confidence, "resamples": resamples}
 
     def drawn():
-        return {**options, "rng": np.random.default_rng(_RESAMPLING)}
+        return {**options, "rng": Resampling.SHARING.rng()}
 
     tables, shielding = {}, {}
     tables["shielding_grains"], shielding["grains"] = grain_shielding(
@@ -72,7 +68,9 @@ def shared_in_state(networks, vectors, edges, classes, contact_exponent, *, conf
 
     of_forces, forces = force_network_result(networks, edges, **drawn())
     rows, fabric = fabric_result(
-        vectors, [network.force for network in networks], confidence=confidence
+        [network.vector for network in networks],
+        [network.force for network in networks],
+        confidence=confidence,
     )
     tables["fabric"] = pd.DataFrame(rows).rename_axis("seed_number").reset_index()
 

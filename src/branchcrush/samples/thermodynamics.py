@@ -127,9 +127,7 @@ def crushing_curves(
     yield_strain = float(law.yield_strain(elasticity))
     summary = {
         "form": "paper, without branch density",
-        "exponent": n,
-        "exponent_low": exponent.low,
-        "exponent_high": exponent.high,
+        **exponent.named("exponent"),
         "theta": share,
         "initial_moment": moments[0],
         "ultimate_moment": moments[1],

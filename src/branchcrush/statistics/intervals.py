@@ -1,19 +1,69 @@
 """Confidence intervals from resampling whole seeds: packings are independent, branches are not."""
 
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
+
+# What ends the name of an estimate, of its lower and of its upper limit.
+LIMITS = ("", "_low", "_high")
+
+
+def interval_names(name: str) -> tuple[str, ...]:
+    """Return the names under which tables and results hold an estimate and its two limits.
+
+    Examples
+    --------
+    >>> interval_names("exponent")
+    ('exponent', 'exponent_low', 'exponent_high')
+    """
+    return tuple(name + limit for limit in LIMITS)
+
+
+class Resampling(IntEnum):
+    """The random state of each kind of result: one and the same, so that it can be made again."""
+
+    EXPONENTS = 20
+    CONTACTS = 21
+    PREDICTORS = 22
+    SHARING = 23
+    FINDINGS = 24
+
+    def rng(self) -> np.random.Generator:
+        """Return a generator at the beginning of this state's draws."""
+        return np.random.default_rng(int(self))
 
 
 class Interval(NamedTuple):
     """An estimate and its confidence interval; low and high are nan when there is none.
 
     Numbers, or arrays of one shape when many quantities are estimated at once.
+
+    Examples
+    --------
+    >>> Interval(3.0, 2.5, 3.5).named("exponent")
+    {'exponent': 3.0, 'exponent_low': 2.5, 'exponent_high': 3.5}
+    >>> Interval(np.array([1.0, 2.0]), np.array([0.0, 1.0]), np.array([2.0, 3.0])).part(1)
+    Interval(estimate=2.0, low=1.0, high=3.0)
     """
 
     estimate: float | np.ndarray
     low: float | np.ndarray
     high: float | np.ndarray
+
+    def named(self, name: str) -> dict:
+        """Return the three by their names in tables and results."""
+        return dict(zip(interval_names(name), self, strict=True))
+
+    def part(self, place) -> "Interval":
+        """Return the interval of one quantity of many, or of some: an index into the arrays."""
+        return Interval(*(_plain(values[place]) for values in self))
+
+    @classmethod
+    def read(cls, result, name: str) -> "Interval":
+        """Return the interval that a result holds under a name; nan where it has none."""
+        values = (result.get(key) for key in interval_names(name))
+        return cls(*(float("nan") if value is None else value for value in values))
 
 
 def seed_draws(seeds, resamples, rng):

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-# The exponent of the paper.
-PAPER = 3.0
+from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.statistics.intervals import Interval, interval_names
 
 
 def at_distance(path, distance):
@@ -18,8 +18,8 @@ def at_distance(path, distance):
 
     Returns
     -------
-    tuple of float
-        exponent, low and high; nan beyond the states there are.
+    Interval
+        Of the exponent; nan beyond the states there are.
 
     Examples
     --------
@@ -32,14 +32,13 @@ def at_distance(path, distance):
     known = path[path["exponent"].notna()]
     above = known["solid_fraction_above_jamming"].to_numpy()
     if not above.size or not above[0] <= distance <= above[-1]:
-        return np.nan, np.nan, np.nan
-    return tuple(
-        float(np.interp(distance, above, known[f"exponent{part}"]))
-        for part in ("", "_low", "_high")
+        return Interval(np.nan, np.nan, np.nan)
+    return Interval(
+        *(float(np.interp(distance, above, known[name])) for name in interval_names("exponent"))
     )
 
 
-def crossing(path, exponent=PAPER):
+def crossing(path, exponent=PAPER_EXPONENT):
     """Return the distance from jamming from which on the exponent is above a value.
 
     Parameters

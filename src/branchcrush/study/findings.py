@@ -3,25 +3,25 @@
 import numpy as np
 
 from branchcrush.branches.coordination_laws import jamming_law_fit
-from branchcrush.study.exponents import PAPER, at_distance, crossing
+from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.statistics.intervals import LIMITS, Interval, Resampling, interval_names
+from branchcrush.study.exponents import at_distance, crossing
 
 # How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
 GOOD_DISTANCE = 0.06
-_RESAMPLING = 24
 # Where tails of the forces begin, in mean forces.
 _TAIL = 2.0
 # Explained deviances less apart than this are the same but for rounding.
 _TIED = 1e-6
 
 
-def finding_row(name, settings, fit, numbers, shared, path, states, distance, intervals):
+def finding_row(name, kind, fit, numbers, shared, path, states, distance, intervals):
     """Return the row of `findings.csv` of a sample.
 
     Parameters
     ----------
     name : str
-    settings : dict
-        Of the sample.
+    kind : SampleKind
     fit, numbers, shared : dict
         `energy_split.json`, `contact_numbers.json` and `sharing.json`.
     path : DataFrame
@@ -40,8 +40,8 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance, in
     """
     row = {
         "sample": name,
-        "boundary": settings["boundary"],
-        "contact_law": settings["contact"]["law"],
+        "boundary": kind.boundary,
+        "contact_law": kind.law,
     }
     reasons = [part["reason"] for part in (fit, numbers, shared) if part.get("reason")]
     row["reason"] = reasons[0] if reasons else None
@@ -60,35 +60,35 @@ def finding_row(name, settings, fit, numbers, shared, path, states, distance, in
 def _exponents(fit, path, distance):
     row = {"seeds": fit["seeds"], "solid_fraction": fit["solid_fraction"]}
     row["distance_at_end"] = float(path["solid_fraction_above_jamming"].iloc[-1])
-    for part in ("", "_low", "_high"):
-        row[f"exponent_at_end{part}"] = fit[f"exponent{part}"]
+    row |= _renamed(fit, "exponent", "exponent_at_end")
     row["distance"] = distance
-    found = at_distance(path, distance)
-    row |= dict(zip(_limits("exponent_at_distance"), found, strict=True))
+    row |= at_distance(path, distance).named("exponent_at_distance")
     row["distance_of_exponent_3"] = crossing(path)
     return row
 
 
-def _limits(name):
-    return name, f"{name}_low", f"{name}_high"
+def _renamed(result, name, new):
+    """Return an estimate and its limits of a result under another name, None where it has none."""
+    keys = zip(interval_names(new), interval_names(name), strict=True)
+    return {to: result.get(key) for to, key in keys}
 
 
 def _split(fit, where):
     row = {}
     bend = fit["curvature"]
-    for name in _limits("curvature"):
+    for name in interval_names("curvature"):
         row[f"{name}_{where}"] = bend.get(name)
     known = {p["name"]: p for p in fit["predictors"] if "reason" not in p}
     for name, predictor in known.items():
         row[f"explained_{name}_{where}"] = predictor["explained_deviance"]
         if name in ("reduced_radius", "grain_size"):
-            for part in ("", "_low", "_high"):
+            for part in LIMITS:
                 key = f"difference_to_branch_length{part}"
                 row[f"{name}_over_length{part}_{where}"] = predictor.get(key)
     for name in ("branch_length", "reduced_radius"):
         if name in known:
-            for part, key in (("", "estimate"), ("_low", "low"), ("_high", "high")):
-                value = known[name]["parameters"]["exponent"][key]
+            exponent = Interval(**known[name]["parameters"]["exponent"])
+            for part, value in zip(LIMITS, exponent, strict=True):
                 row[f"exponent_of_{name}{part}_{where}"] = value
     # Of those with one exponent or two: the full surface is the ceiling, no rival.
     scored = {
@@ -114,7 +114,7 @@ def _lengths(numbers):
     for prediction in numbers["end"]["predictions"]:
         if prediction["name"] in ("random_contact", "parking", "configuration"):
             row[f"ks_{prediction['name']}_end"] = prediction["kolmogorov_smirnov"]
-    for name in _limits("assortativity_of_radii"):
+    for name in interval_names("assortativity_of_radii"):
         row[name] = numbers["end"].get(name)
     return row
 
@@ -126,12 +126,12 @@ def _coordination(numbers, states, intervals):
         [seed["mechanical_coordination_number"] for seed in seeds],
         isostatic=[seed["isostatic_number"] for seed in seeds],
         **intervals,
-        rng=np.random.default_rng(_RESAMPLING),
+        rng=Resampling.FINDINGS.rng(),
     )
     laws = {
         f"jamming_law_{name}": found[name]
         for kind in ("prefactor", "exponent")
-        for name in _limits(kind)
+        for name in interval_names(kind)
     }
     return {
         "coordination_number_near": numbers["near_jamming"]["coordination_number"],
@@ -145,27 +145,27 @@ def _shared(end):
     shielding, forces = end["shielding"], end["forces"]
     tails = {tail["threshold"]: tail for tail in forces["tails"]}
     branches = shielding["branches"]
-    row = {name: branches.get(name) for name in _limits("shielding_exponent")}
-    for name in (*_limits("unequal_over_equal"), "radius_ratio_to", "unequal_branches"):
+    row = {name: branches.get(name) for name in interval_names("shielding_exponent")}
+    for name in (*interval_names("unequal_over_equal"), "radius_ratio_to", "unequal_branches"):
         row[f"shielding_{name}"] = branches.get(name)
     row["shielding_claim_per_branch"] = branches.get("claim")
     for name in ("largest_neighbour_ratio", "neighbour_ratio_from", "grains"):
         row[f"shielding_{name}"] = shielding["grains"][name]
     for reading in ("contact", "grain", "volume"):
-        for name in _limits(f"energy_per_{reading}"):
+        for name in interval_names(f"energy_per_{reading}"):
             row[f"shielding_{name}"] = shielding["grains"][name]
         row[f"shielding_claim_per_{reading}"] = shielding["grains"][f"claim_per_{reading}"]
     # Of all grains it is no power of the radius, as rattlers hold nothing.
-    for name in _limits("exponent_load_bearing"):
+    for name in interval_names("exponent_load_bearing"):
         row[f"grain_energy_{name}"] = shielding["grain_energy"].get(name)
-    for name in _limits("exponent"):
+    for name in interval_names("exponent"):
         row[f"force_{name}"] = forces["by_length"].get(name)
-    for name in (*_limits("decay_rate"), *_limits("squared_variation")):
+    for name in (*interval_names("decay_rate"), *interval_names("squared_variation")):
         row[f"force_tail_{name}"] = tails[_TAIL][name]
     for kind in ("branches", "forces"):
         for name in ("deviator_over_expected", "by_chance_low", "by_chance_high"):
             row[f"fabric_{kind}_{name}"] = end["fabric"][kind][name]
-    for name in (*_limits("coarse_half_stress_share"), *_limits("sharing_index")):
+    for name in (*interval_names("coarse_half_stress_share"), *interval_names("sharing_index")):
         row[name] = end["stress"][name]
     return row
 
@@ -198,9 +198,9 @@ def verdicts(rows):
         for place in ("at_end", "at_distance"):
             low, high = (row.get(f"exponent_{place}{part}") for part in ("_low", "_high"))
             told = _told(low, high)
-            sort(f"three_{place}_holds", row, told and low <= PAPER <= high)
-            sort(f"three_{place}_below", row, told and high < PAPER)
-            sort(f"three_{place}_above", row, told and low > PAPER)
+            sort(f"three_{place}_holds", row, told and low <= PAPER_EXPONENT <= high)
+            sort(f"three_{place}_below", row, told and high < PAPER_EXPONENT)
+            sort(f"three_{place}_above", row, told and low > PAPER_EXPONENT)
         low, high = row.get("curvature_low_end"), row.get("curvature_high_end")
         sort("power_law_fails", row, _told(low, high) and not low <= 0.0 <= high)
         for name in ("branch_length", "reduced_radius", "both_radii", "grain_size"):

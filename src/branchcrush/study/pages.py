@@ -7,6 +7,7 @@ from pathlib import Path
 from jinja2 import Environment, StrictUndefined
 
 from branchcrush import __version__
+from branchcrush.statistics.intervals import interval_names
 
 
 def render_report(template, samples):
@@ -81,7 +82,7 @@ def render_findings(template, rows, verdicts, good, figures):
 
 def _estimate(row, name, form="%.2f"):
     """Format an estimate with its interval."""
-    value, low, high = (row.get(name + part) for part in ("", "_low", "_high"))
+    value, low, high = (row.get(key) for key in interval_names(name))
     if value is None or value != value:
         return "none"
     if low is None or low != low:

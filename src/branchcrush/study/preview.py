@@ -4,11 +4,12 @@ from typing import NamedTuple
 
 from branchcrush.gradings.curves import grading_summary
 from branchcrush.gradings.representativity import representativity
+from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import (
     expected_overlap_ratio,
-    loaded_solid_fraction,
     planned_steps,
 )
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.packings.geometry import UNIT_SPHERE
 
 # Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
@@ -19,7 +20,6 @@ _TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
 _GROWTH = 1.0 / 3.0
 # Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
 _BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
-_FLAGGED_OVERLAP = 0.05
 
 
 class Plan(NamedTuple):
@@ -38,17 +38,12 @@ class Plan(NamedTuple):
     warnings: list
 
 
-def sample_plan(sample, refined, grading, law, seconds_per_grain):
+def sample_plan(sample: Sample, seconds_per_grain: float) -> Plan:
     """Return what a sample will be and cost.
 
     Parameters
     ----------
-    sample : dict
-        Its settings.
-    refined : int
-        How many seeds run again with twice the strain steps.
-    grading : Grading
-    law : contact_law.LinearContact or HertzContact
+    sample : Sample
     seconds_per_grain : float
         That a force evaluation takes on this machine [s].
 
@@ -56,36 +51,39 @@ def sample_plan(sample, refined, grading, law, seconds_per_grain):
     -------
     Plan
     """
-    grains, loading = sample["grains"], sample["loading"]
-    start = sample["initial_solid_fraction"]
+    grading, loading, grains = sample.grading, sample.loading, sample.grains
     solid = UNIT_SPHERE * grading.moment(3) * grains
-    end = loaded_solid_fraction(start, loading)
-    standing = representativity(grading, grains, end)
+    standing = representativity(grading, grains, sample.end)
     warnings = [] if standing.verdict == "accept" else [standing.message]
     overlap = 0.0
-    if loading["target"] == "mean_stress":
-        overlap = expected_overlap_ratio(loading["value"][-1], float(grading.mass_ppf(0.5)), law)
-        if overlap > _FLAGGED_OVERLAP:
+    if loading.stresses:
+        radius = float(grading.mass_ppf(0.5))
+        overlap = expected_overlap_ratio(loading.stresses[-1], radius, sample.law)
+        if overlap > OVERLAP_FLAG:
             warnings.append(
                 f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
-                f"{_FLAGGED_OVERLAP:.0%}; ask for less stress or raise the stiffness"
+                f"{OVERLAP_FLAG:.0%}; ask for less stress or raise the stiffness"
             )
-    steps, states = planned_steps(loading, start, sample["strain_step"], overlap)
-    step, state = _TO_STRESS if loading["target"] == "mean_stress" else _TO_STRAIN
+    steps, states = planned_steps(
+        loading, sample.initial_solid_fraction, sample.strain_step, overlap
+    )
+    step, state = _TO_STRESS if loading.stresses else _TO_STRAIN
     evaluations = (step * steps + state * states) * (grains / 1000.0) ** _GROWTH
-    packings = len(sample["seeds"]) + 2.0 * refined
+    # A refined seed takes twice the strain steps.
+    refined = min(sample.refined_seeds, len(sample.seeds))
+    packings = len(sample.seeds) + 2.0 * refined
     summary = grading_summary(grading)
     return Plan(
         grains=grains,
-        seeds=len(sample["seeds"]),
-        ranks=sample["ranks"],
-        first_edge=(solid / start) ** (1.0 / 3.0),
-        last_edge=(solid / end) ** (1.0 / 3.0),
+        seeds=len(sample.seeds),
+        ranks=sample.ranks,
+        first_edge=(solid / sample.initial_solid_fraction) ** (1.0 / 3.0),
+        last_edge=(solid / sample.end) ** (1.0 / 3.0),
         smallest_diameter=summary["D_min_m"],
         largest_diameter=summary["D_max_m"],
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
-        memory=_BASE * sample["ranks"] + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
+        memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
         warnings=warnings,
     )
 

@@ -1,5 +1,7 @@
 """The jamming law fitted to states that obey it, and the isostatic number between walls."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -41,7 +43,7 @@ def test_isostatic_number_is_where_forces_are_as_many_as_equations():
     assert not network.rattlers.any()
     coordination = (2 * grains + wall.size) / grains
     assert_allclose(isostatic_number(network), coordination)
-    shuffled = network._replace(wall_grain=rng.permutation(wall))
+    shuffled = replace(network, wall_grain=rng.permutation(wall))
     assert_allclose(isostatic_number(shuffled), coordination)
 
 

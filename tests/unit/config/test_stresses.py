@@ -1,6 +1,10 @@
 """The mean stresses of a loading: a number, a list or a range, and nothing else."""
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
 from pydantic_core import PydanticCustomError
 
 from branchcrush.config.stresses import increasing_stresses
@@ -62,3 +66,13 @@ def test_anything_else_is_refused_with_what_is_allowed(value, what):
     assert words.startswith("must be a stress in Pa, an increasing list of them, or a range {from:")
     assert words.endswith(f"; {what}")
     assert refused.value.context["unit"] == "Pa"
+
+
+@given(st.floats(1e-3, 1e6), st.floats(1.1, 1e5), st.integers(2, 30))
+def test_a_range_of_stresses_is_even_in_the_logarithm(first, ratio, states):
+    stresses = increasing_stresses({"from": first, "to": first * ratio, "states": states})
+    assert len(stresses) == states
+    assert_allclose([stresses[0], stresses[-1]], [first, first * ratio], rtol=1e-12)
+    assert_allclose(np.diff(np.log(stresses)), np.log(ratio) / (states - 1), rtol=1e-6)
+    # NumPy's numbers print as no number that LAMMPS reads.
+    assert {type(value) for value in stresses} == {float}

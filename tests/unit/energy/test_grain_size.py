@@ -1,5 +1,7 @@
 """Energies of grains that are a power of the radius: the power is found, and what rattlers do."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -64,7 +66,7 @@ def test_pairs_of_equal_grains_have_the_exponent_of_their_contacts():
     i = np.repeat(np.arange(0, radius.size, 2), 4)
     zeros = 0.0 * i
     packing = held(radius, 0.0 * radius, walls=0)
-    packing = packing._replace(i=i, j=i + 1, overlap=zeros, force=zeros, energy=radius[i] ** EINAV)
+    packing = replace(packing, i=i, j=i + 1, overlap=zeros, force=zeros, energy=radius[i] ** EINAV)
     found = grain_energy_exponents([packing], 1.5, rng=None)
     assert_allclose(exponents(found, "load_bearing")[0], 5.0, atol=1e-7)
     assert_allclose(exponents(found, "all_grains")[0], 5.0, atol=1e-7)
@@ -116,7 +118,7 @@ def test_order_of_packings_and_of_grains_leaves_the_exponents():
         order = rng_of(2).permutation(packing.radius.size)
         places = np.argsort(order)
         other.append(
-            packing._replace(radius=packing.radius[order], wall_grain=places[packing.wall_grain])
+            replace(packing, radius=packing.radius[order], wall_grain=places[packing.wall_grain])
         )
     same = grain_energy_exponents(other, 1.0, rng=rng_of(), **FEW)
     for name in ("exponent_all_grains", "exponent_load_bearing"):

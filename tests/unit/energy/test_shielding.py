@@ -1,5 +1,7 @@
 """Shielding that was put into the energies is found again, and none where there is none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -108,8 +110,8 @@ def test_draws_refit_amplitude_and_exponent():
 
 def test_branches_do_not_know_the_unit_of_length_or_energy_or_the_order_of_seeds():
     made = packings(np.random.default_rng(3), 1.0, seeds=4, contacts=1000)
-    in_micro = [one._replace(radius=1e-3 * one.radius, energy=1e-9 * one.energy) for one in made]
-    turned = [one._replace(i=one.j, j=one.i) for one in made]
+    in_micro = [replace(one, radius=1e-3 * one.radius, energy=1e-9 * one.energy) for one in made]
+    turned = [replace(one, i=one.j, j=one.i) for one in made]
     table, found = branch_shielding(branches(made), **options())
     for others, scale in ((in_micro, 1e-3), (turned, 1.0)):
         table_too, found_too = branch_shielding(branches(others, scale), **options())
@@ -278,7 +280,7 @@ def test_rattlers_are_left_out_of_the_second_half_of_the_table():
 
 def test_grains_do_not_know_the_units():
     made = [large_in_fines(x) for x in np.linspace(0.5, 2.0, 10)]
-    scaled = [one._replace(radius=1e-3 * one.radius, energy=1e-7 * one.energy) for one in made]
+    scaled = [replace(one, radius=1e-3 * one.radius, energy=1e-7 * one.energy) for one in made]
     (table, found), (table_too, found_too) = (
         grain_shielding(networks, 1.5, **options()) for networks in (made, scaled)
     )
@@ -290,9 +292,9 @@ def test_grains_do_not_know_the_units():
 
 def test_ratios_of_all_classes_and_of_grains_without_neighbours_have_the_mean_of_all():
     made = packings(np.random.default_rng(2), 0.5, seeds=3, contacts=900)
-    made = [one._replace(wall_grain=np.arange(800)[::3]) for one in made]
+    made = [replace(one, wall_grain=np.arange(800)[::3]) for one in made]
     walls = np.linspace(0.0, 0.1, 267)
-    made = [one._replace(wall_overlap=walls, wall_force=walls) for one in made]
+    made = [replace(one, wall_overlap=walls, wall_force=walls) for one in made]
     table, _ = grain_shielding(made, 1.0, **options())
     every = table["grains_counted"] == "all"
     energy = np.concatenate([grain_energy(one, 1.0) for one in made])

@@ -1,5 +1,7 @@
 """Forces drawn from known laws: their distribution, their tail, and the length they grow with."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -236,9 +238,9 @@ def test_the_result_is_that_of_its_parts():
 
 def test_each_seed_is_divided_by_its_own_mean():
     one, other = power_law_networks(rng_of(), 1.0, seeds=2)
-    other = other._replace(radius=1.1 * other.radius - 0.1)
+    other = replace(other, radius=1.1 * other.radius - 0.1)
     alike = force_network_result([one, other], EDGES, resamples=20, rng=rng_of())[0]
-    loud = other._replace(force=7.0 * other.force)
+    loud = replace(other, force=7.0 * other.force)
     tables = force_network_result([one, loud], EDGES, resamples=20, rng=rng_of())[0]
     for table, column in (("force_distribution", "density"), ("force_by_length", "mean_force")):
         assert_allclose(tables[table][column], alike[table][column], rtol=1e-9)

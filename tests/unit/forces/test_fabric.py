@@ -1,15 +1,12 @@
 """Directions whose fabric is known, and how much of a deviator chance alone makes."""
 
-import gzip
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 
 from branchcrush.forces.fabric import (
-    branch_vectors,
     chance_range,
     deviator,
     effective_branches,
@@ -17,9 +14,6 @@ from branchcrush.forces.fabric import (
     fabric_result,
     fabric_tensor,
 )
-from branchcrush.lammps.files import read_dump
-from branchcrush.loading.states import state_contacts
-from branchcrush.packings.contact_laws import LinearContact
 
 TRIALS, BRANCHES = 4000, 60
 
@@ -181,43 +175,3 @@ def test_as_many_forces_as_branches_are_needed():
 
 
 # --- the order of LAMMPS -------------------------------------------------------------------------
-
-
-def test_vectors_come_in_the_order_of_the_contacts_whatever_that_of_the_dump(tmp_path):
-    rng = rng_of()
-    grains, radius = 40, np.full(40, 0.5)
-    places = rng.uniform(0.0, 2.0, (grains, 3))
-    first, second = np.triu_indices(grains, k=1)
-    reach = np.linalg.norm(places[first] - places[second], axis=1) < 1.0
-    pairs = rng.permuted(np.stack([first, second])[:, reach], axis=0)  # i and j in any order
-    pairs = rng.permutation(pairs, axis=1)
-    vectors = places[pairs[0]] - places[pairs[1]]
-    length = np.linalg.norm(vectors, axis=1)
-    columns = "id1 id2 branch branch_x branch_y branch_z force"
-    values = np.column_stack([pairs.T + 1, length, vectors, 1.0 - length])
-    lines = [
-        f"{int(a)} {int(b)} " + " ".join(map(repr, map(float, rest))) for a, b, *rest in values
-    ]
-    header = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n{len(lines)}\nITEM: BOX BOUNDS\n"
-    header += f"0 2\n0 2\n0 2\nITEM: ENTRIES {columns}\n"
-    with gzip.open(tmp_path / "pairs.dump.gz", "wt", encoding="ascii") as file:
-        file.write(header + "".join(f"{line} \n" for line in lines))
-
-    (frame,) = read_dump(tmp_path / "pairs.dump.gz")
-    contacts = state_contacts(frame, radius, LinearContact(1.0))
-    found = branch_vectors(frame)
-    assert len(found) > 20
-    assert not np.array_equal(np.linalg.norm(found, axis=1), length)
-    assert_allclose(np.linalg.norm(found, axis=1), contacts["branch_length_m"])
-    expected = places[contacts["i"]] - places[contacts["j"]]
-    assert_allclose(found * np.sign(np.sum(found * expected, axis=1))[:, None], expected)
-    assert_array_equal(
-        fabric_tensor(found, contacts["normal_force_N"]).round(12),
-        fabric_tensor(vectors, 1.0 - length).round(12),
-    )
-
-
-def test_two_contacts_of_the_same_two_grains_come_by_length():
-    frame = {"id1": [2, 1], "id2": [1, 2], "branch": [2.0, 1.0]}
-    frame |= {"branch_x": [2.0, 0.0], "branch_y": [0.0, 1.0], "branch_z": [0.0, 0.0]}
-    assert branch_vectors(frame).tolist() == [[0.0, 1.0, 0.0], [2.0, 0.0, 0.0]]

@@ -86,6 +86,9 @@ def test_contacts_have_a_row_for_each_contact_and_state(folder):
         "radius_i_m": [1.0],
         "radius_j_m": [1.0],
         "branch_length_m": [1.75],
+        "branch_x": [1.75],
+        "branch_y": [0.0],
+        "branch_z": [0.0],
         "overlap_m": [0.25],
         "normal_force_N": [2.5],
         "energy_J": [2.5**2 / (2 * STIFFNESS)],
@@ -98,6 +101,9 @@ def test_walls_have_a_row_for_each_contact_and_state(folder):
         "state": [2, 2],
         "i": [0, 1],
         "wall": ["-x", "+x"],
+        "direction_x": [-1.0, 1.0],
+        "direction_y": [0.0, 0.0],
+        "direction_z": [0.0, 0.0],
         "overlap_m": [0.125, 0.125],
         "normal_force_N": [1.25, 1.25],
     }
@@ -112,7 +118,7 @@ def test_kinds_of_columns_are_those_of_numbers_counts_and_words(folder):
         "int64",
         "int64",
         "str",
-        *["float64"] * 2,
+        *["float64"] * 5,
     ]
 
 

@@ -13,7 +13,7 @@ LAW = LinearContact(10.0)
 
 
 def pairs_of(*rows):
-    """Return a frame of the pair dump from rows of id1, id2 and the vector between them."""
+    """Return a frame of the pair dump from rows of id1, id2 and the vector from 2 to 1."""
     ids = np.array([row[:2] for row in rows], dtype=float)
     vector = np.array([row[2] for row in rows])
     branch = np.linalg.norm(vector, axis=1)
@@ -39,12 +39,24 @@ def test_contacts_are_sorted_by_grain_with_the_radii_of_both():
     assert_allclose(found["energy_J"], [1.25, 1.25, 5], rtol=1e-15)
 
 
+def test_branch_vectors_point_from_i_to_j_in_the_order_of_the_contacts():
+    places = np.array([[0.0, 0, 0], [1.5, 2.0, 0], [0, 0, 4.5]])
+    pairs = pairs_of((3, 1, places[2] - places[0]), (1, 2, places[0] - places[1]))
+    columns = state_contacts(pairs, RADII, LAW)
+    assert columns["j"].tolist() == [1, 2]
+    vectors = np.column_stack([columns[f"branch_{axis}"] for axis in "xyz"])
+    assert vectors.tolist() == [[1.5, 2.0, 0.0], [0.0, 0.0, 4.5]]
+
+
 def test_two_grains_that_touch_through_two_faces_have_two_contacts():
     # Of one length, and listed once from either side.
     pairs = pairs_of((1, 2, (2.5, 0, 0)), (2, 1, (2.5, 0, 0)), (1, 2, (0, 2.75, 0)))
     found = state_contacts(pairs, RADII, LAW)
     assert found["i"].tolist() == [0] * 3
     assert_allclose(found["branch_length_m"], [2.5, 2.5, 2.75])
+    # Seen from the first grain the other is at -x, at +x, and at -y.
+    assert found["branch_x"].tolist() == [-2.5, 2.5, 0.0]
+    assert found["branch_y"].tolist() == [0.0, 0.0, -2.75]
 
 
 @pytest.mark.parametrize(

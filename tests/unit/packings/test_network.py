@@ -43,9 +43,9 @@ def test_every_contact_keeps_its_grains_radii_and_forces():
 
 def test_states_of_one_table_are_kept_apart():
     contacts = pd.concat(
-        [contact_table(3, [(0, 1)]), contact_table(7, [(1, 2), (2, 3)]), contact_table(3, [(4, 5)])]
+        [contact_table(3, [(0, 1)]), contact_table(3, [(4, 5)]), contact_table(7, [(1, 2), (2, 3)])]
     )
-    walls = pd.concat([wall_table(7, [5, 5]), wall_table(3, [0])])
+    walls = pd.concat([wall_table(3, [0]), wall_table(7, [5, 5])])
     first, second = (state_network(RADII, contacts, walls, state) for state in (3, 7))
     assert (first.i.tolist(), first.j.tolist()) == ([0, 4], [1, 5])
     assert (second.i.tolist(), second.j.tolist()) == ([1, 2], [2, 3])
@@ -113,5 +113,5 @@ def test_rattlers_are_those_that_the_coordination_of_a_table_leaves_out():
     number = 2 * inside.sum() + network.wall_contacts[bearing].sum()
     assert 0 < bearing.sum() <= 15
     assert number / bearing.sum() == mechanical_coordination_number(
-        network.i, network.j, 20, network.wall_contacts
+        network.i, network.j, network.rattlers, network.wall_contacts
     )

@@ -1,5 +1,7 @@
 """The figures of networks, predictors and samples draw many seeds, one seed, and one radius."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -27,11 +29,12 @@ from branchcrush.samples.energy_split import COLUMNS, final_energy_split, seed_b
 from branchcrush.samples.ensemble import mean_path
 from branchcrush.samples.sharing import both_states, shared_in_state
 from branchcrush.statistics.bins import bin_edges
+from branchcrush.study.kinds import SampleKind
 
 pytestmark = pytest.mark.filterwarnings("error")
 OPTIONS = {"confidence": 0.95, "resamples": 100}
 STATES = (4, 7)
-SETTINGS = {"grading": {"form": "any"}, "boundary": "walls", "contact": {"law": "linear"}}
+KIND = SampleKind("walls", "linear", {"form": "any"})
 
 
 @pytest.fixture(autouse=True)
@@ -128,8 +131,8 @@ def test_what_is_shared(sample):
     found = {}
     for where, state in (("near_jamming", 4), ("end", 7)):
         networks = [state_network(*seed, state) for seed in seeds]
-        vectors = [rng.normal(size=(network.i.size, 3)) for network in networks]
-        found[where, state] = shared_in_state(networks, vectors, edges, classes, 1.0, **OPTIONS)
+        networks = [replace(one, vector=rng.normal(size=(one.i.size, 3))) for one in networks]
+        found[where, state] = shared_in_state(networks, edges, classes, 1.0, **OPTIONS)
     tables, summary = both_states(found)
     summary = through_json(summary)
     drawn = [
@@ -141,7 +144,7 @@ def test_what_is_shared(sample):
     ]
     if "reason" not in summary["end"]["shielding"]["branches"]:
         drawn.append(sharing.plot_branch_shielding(tables["shielding_branches"], summary))
-    styles = samples.sample_styles({"one": SETTINGS})
+    styles = samples.sample_styles({"one": KIND})
     for plot, name in (
         (samples_networks.plot_grain_shielding, "shielding_grains"),
         (samples_networks.plot_stress, "stress_sharing"),
@@ -166,9 +169,9 @@ def test_predictors_and_slopes(sample):
 
 
 def test_samples_of_one_grading_have_one_colour_and_the_name_they_share():
-    other = {**SETTINGS, "grading": {"form": "other"}}
-    hertz = {**SETTINGS, "boundary": "periodic", "contact": {"law": "hertz"}}
-    styles = samples.sample_styles({"sand-a": SETTINGS, "sand-b": hertz, "mud": other})
+    other = replace(KIND, grading={"form": "other"})
+    hertz = replace(KIND, boundary="periodic", law="hertz")
+    styles = samples.sample_styles({"sand-a": KIND, "sand-b": hertz, "mud": other})
     assert styles["sand-a"]["color"] == styles["sand-b"]["color"] != styles["mud"]["color"]
     assert [style["grading"] for style in styles.values()] == ["sand", "sand", "mud"]
     assert (styles["sand-a"]["line"], styles["sand-b"]["line"]) == ("--", "-")
@@ -185,8 +188,8 @@ def test_exponents_are_drawn_for_the_samples_of_one_law():
             "exponent_high": [4.0, 2.6, 3.1],
         }
     )
-    hertz = {**SETTINGS, "contact": {"law": "hertz"}}
-    styles = samples.sample_styles({"one": SETTINGS, "two": hertz})
+    hertz = replace(KIND, law="hertz")
+    styles = samples.sample_styles({"one": KIND, "two": hertz})
     ax = samples.plot_exponents({"one": table, "two": table}, styles, "linear")
     assert ax.lines[0].get_xdata().tolist() == [0.1, 0.2]
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["one", "the paper's n = 3"]

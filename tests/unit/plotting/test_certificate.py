@@ -5,9 +5,10 @@ import pandas as pd
 import pytest
 from matplotlib import pyplot as plt
 
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import certificate
 from branchcrush.plotting.style import figure, reason
-from branchcrush.samples.certificate import LIMITS, OVERLAP_FLAG
+from branchcrush.samples.certificate import LIMITS
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -6,10 +6,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
-from branchcrush.samples import certificate
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.samples.certificate import (
     LIMITS,
-    OVERLAP_FLAG,
     jamming_points,
     sample_certificate,
     state_certificates,
@@ -165,8 +164,13 @@ def test_each_packing_jams_on_the_way_in_and_on_the_way_back():
     assert not found["loaded_from_the_start"].any()
 
 
-def test_a_step_that_came_to_rest_as_far_as_it_was_asked_counts():
-    assert max(STEP_UNBALANCED_FORCE_RATIO.values()) == certificate._STEP_AT_REST
+@pytest.mark.parametrize("asked", STEP_UNBALANCED_FORCE_RATIO.values())
+def test_a_step_that_came_to_rest_as_far_as_it_was_asked_counts(asked):
+    steps = steps_of(WAY_IN, 0.641)
+    steps["unbalanced_force_ratio"] = asked
+    path = path_of(solid_fraction=[0.6, 0.64, 0.68])
+    points = jamming_points([1], [steps], [path], 1.0, [1.0])
+    assert points["steps_loading"].tolist() == [8]
 
 
 def test_steps_that_went_on_before_they_came_to_rest_are_left_out():

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
-from pandas.testing import assert_frame_equal
 
 from branchcrush.energy.predictors import log_length
 from branchcrush.errors import FitError
@@ -304,11 +303,6 @@ def test_last_row_along_the_path_is_the_fit_of_its_end():
     assert along.iloc[-1][names].tolist() == [fit[name] for name in names]
 
 
-def test_rows_of_a_table_may_be_in_any_order(sample, contacts):
-    _, paths = sample
-    shuffled = [table.sample(frac=1, random_state=0) for table in contacts]
-    along = [
-        exponents_along_path(branches_of(tables, 1, 2), paths, **SETTINGS)
-        for tables in (contacts, shuffled)
-    ]
-    assert_frame_equal(*along, rtol=1e-10)
+def test_a_table_whose_states_are_not_one_after_the_other_is_refused(contacts):
+    with pytest.raises(ValueError, match="state after state"):
+        branches_of([table.iloc[::-1] for table in contacts], 1, 2)

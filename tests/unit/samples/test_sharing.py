@@ -1,6 +1,7 @@
 """What contact networks share, put together: every table, of every state, however few the data."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -24,8 +25,8 @@ EDGES = bin_edges(0.02, 1.0)
 
 
 def sample(seed=1, seeds=4, radii=RADII, exponent=3.0, noise=True):
-    """Return networks of grains that touch at random, E = l^n times noise, and branch vectors."""
-    rng, networks, vectors = np.random.default_rng(seed), [], []
+    """Return networks of grains that touch at random, E = l^n times noise."""
+    rng, networks = np.random.default_rng(seed), []
     for _ in range(seeds):
         radius = rng.choice(radii, 120)
         i = rng.integers(0, 120, 700)
@@ -33,6 +34,7 @@ def sample(seed=1, seeds=4, radii=RADII, exponent=3.0, noise=True):
         length = radius[i] + radius[j]
         energy = length**exponent * (rng.standard_exponential(700) if noise else 1.0)
         overlap, wall = 0.01 * np.minimum(radius[i], radius[j]), rng.integers(0, 120, 30)
+        along = rng.standard_normal((700, 3))
         networks.append(
             Network(
                 radius,
@@ -44,11 +46,10 @@ def sample(seed=1, seeds=4, radii=RADII, exponent=3.0, noise=True):
                 wall,
                 0.01 * radius[wall],
                 radius[wall] ** 2,
+                along * (length / np.linalg.norm(along, axis=1))[:, None],
             )
         )
-        along = rng.standard_normal((700, 3))
-        vectors.append(along * (length / np.linalg.norm(along, axis=1))[:, None])
-    return networks, vectors
+    return networks
 
 
 def classes_of(networks):
@@ -58,9 +59,9 @@ def classes_of(networks):
     return radius_classes(radii, contacts)
 
 
-def shared(networks, vectors, edges=EDGES, exponent=1.0):
+def shared(networks, edges=EDGES, exponent=1.0):
     classes = classes_of(networks)
-    return shared_in_state(networks, vectors, edges, classes, exponent, **OPTIONS)
+    return shared_in_state(networks, edges, classes, exponent, **OPTIONS)
 
 
 def text(tables, summary):
@@ -82,7 +83,7 @@ def made():
 
 @pytest.fixture(scope="module")
 def found(made):
-    return shared(*made)
+    return shared(made)
 
 
 # --- one state -----------------------------------------------------------------------------------
@@ -99,10 +100,10 @@ def test_a_state_has_every_table_and_every_part_of_the_summary(found):
 
 
 def test_numbers_are_those_of_the_parts(made, found):
-    (networks, vectors), (tables, summary) = made, found
+    networks, (tables, summary) = made, found
     rng = np.random.default_rng(1)
     forces = [network.force for network in networks]
-    rows, fabric = fabric_result(vectors, forces)
+    rows, fabric = fabric_result([network.vector for network in networks], forces)
     assert summary["fabric"] == fabric
     assert tables["fabric"]["force_deviator"].tolist() == [row["force_deviator"] for row in rows]
     assert tables["fabric"]["seed_number"].tolist() == [0, 1, 2, 3]
@@ -116,9 +117,9 @@ def test_numbers_are_those_of_the_parts(made, found):
 
 
 def test_stress_is_told_in_the_classes_that_were_given():
-    networks, vectors = sample(radii=np.linspace(0.02, 1.0, 500))
+    networks = sample(radii=np.linspace(0.02, 1.0, 500))
     classes = np.array([0.02, 0.3, 0.4, 1.0])
-    tables, _ = shared_in_state(networks, vectors, EDGES, classes, 1.0, **OPTIONS)
+    tables, _ = shared_in_state(networks, EDGES, classes, 1.0, **OPTIONS)
     assert tables["stress_by_radius"]["radius_low_m"].tolist() == classes[:-1].tolist()
     assert tables["stress_by_radius"]["radius_high_m"].tolist() == classes[1:].tolist()
 
@@ -133,7 +134,7 @@ def test_every_contact_is_in_every_table_of_contacts(found):
 
 
 def test_energies_of_an_exact_power_law_have_its_exponents():
-    _, summary = shared(*sample(noise=False, exponent=2.5))
+    _, summary = shared(sample(noise=False, exponent=2.5))
     branches = summary["shielding"]["branches"]
     assert_allclose(branches["length_exponent"], 2.5, atol=1e-7)
     assert_allclose(branches["shielding_exponent"], 0.0, atol=1e-7)
@@ -141,7 +142,7 @@ def test_energies_of_an_exact_power_law_have_its_exponents():
 
 def test_the_contact_law_changes_the_energy_of_walls_alone(made, found):
     _, summary = found
-    _, hertz = shared(*made, exponent=1.5)
+    _, hertz = shared(made, exponent=1.5)
     changed = {k for k, value in numbers(hertz).items() if value != numbers(summary)[k]}
     parts = (".shielding.grains.energy", ".shielding.grain_energy.exponent")
     assert all(name.startswith(parts) for name in changed)
@@ -149,13 +150,14 @@ def test_the_contact_law_changes_the_energy_of_walls_alone(made, found):
 
 
 def test_same_input_gives_the_same_result_to_the_last_digit(made, found):
-    assert text(*shared(*made)) == text(*found)
+    assert text(*shared(made)) == text(*found)
 
 
 def test_units_do_not_matter(made, found):
-    networks, vectors = made
+    networks = made
     scaled = [
-        network._replace(
+        replace(
+            network,
             radius=1e-3 * network.radius,
             overlap=1e-3 * network.overlap,
             force=1e4 * network.force,
@@ -165,7 +167,7 @@ def test_units_do_not_matter(made, found):
         )
         for network in networks
     ]
-    _, other = shared(scaled, [1e-3 * vector for vector in vectors], 1e-3 * EDGES)
+    _, other = shared(scaled, 1e-3 * EDGES)
     expected = numbers(found[1])
     assert len(expected) > 60
     for name, value in numbers(other).items():
@@ -173,8 +175,8 @@ def test_units_do_not_matter(made, found):
 
 
 def test_order_of_seeds_leaves_the_estimates(made, found):
-    networks, vectors = made
-    _, other = shared(networks[::-1], vectors[::-1])
+    networks = made
+    _, other = shared(networks[::-1])
     expected = numbers(found[1])
     for name, value in numbers(other).items():
         if not name.endswith(("_low", "_high")):
@@ -185,7 +187,7 @@ def test_order_of_seeds_leaves_the_estimates(made, found):
 
 
 def test_one_seed_has_every_table_and_no_interval():
-    tables, summary = shared(*sample(seeds=1))
+    tables, summary = shared(sample(seeds=1))
     assert set(tables) == set(TABLES)
     limits = {
         name: value
@@ -198,8 +200,8 @@ def test_one_seed_has_every_table_and_no_interval():
 
 
 def test_grains_of_one_size_have_reasons_in_place_of_power_laws():
-    networks, vectors = sample(radii=[0.5])
-    tables, summary = shared(networks, vectors, bin_edges(0.5, 0.5))
+    networks = sample(radii=[0.5])
+    tables, summary = shared(networks, bin_edges(0.5, 0.5))
     assert set(TABLES) - set(tables) == {"shielding_branches"}
     assert list(summary["shielding"]["branches"]) == ["reason"]
     assert list(summary["shielding"]["grain_energy"]) == ["reason"]
@@ -215,7 +217,7 @@ def test_grains_of_one_size_have_reasons_in_place_of_power_laws():
 
 
 def test_states_stand_one_after_the_other_with_their_names_and_numbers(found):
-    other = shared(*sample(seed=2, seeds=3))
+    other = shared(sample(seed=2, seeds=3))
     tables, summary = both_states({("near_jamming", 4): found, ("end", 17): other})
     assert list(tables) == list(TABLES)
     for name, table in tables.items():

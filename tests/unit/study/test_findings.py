@@ -6,6 +6,7 @@ import pytest
 
 from branchcrush.study.exponents import at_distance, common_distance, crossing
 from branchcrush.study.findings import finding_row, verdicts
+from branchcrush.study.kinds import SampleKind
 
 INTERVALS = {"confidence": 0.95, "resamples": 100}
 DISTANCES = np.array([0.0, 0.05, 0.1, 0.15])
@@ -141,9 +142,9 @@ def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain", branc
 
 
 def row_of(name="one", exponents=(2.5, 2.8, 3.0, 3.2), **options):
-    settings = {"boundary": "walls", "contact": {"law": "hertz"}}
+    kind = SampleKind("walls", "hertz", {"form": "single"})
     return finding_row(
-        name, settings, *results(**options), path_of(exponents), states_of(), 0.1, INTERVALS
+        name, kind, *results(**options), path_of(exponents), states_of(), 0.1, INTERVALS
     )
 
 
@@ -170,8 +171,8 @@ def test_row_says_what_the_results_say():
 def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(part, column):
     parts = list(results())
     parts[part] = {"reason": "no load"}
-    settings = {"boundary": "periodic", "contact": {"law": "linear"}}
-    row = finding_row("part", settings, *parts, path_of([2.0] * 4), states_of(), 0.1, INTERVALS)
+    kind = SampleKind("periodic", "linear", {"form": "single"})
+    row = finding_row("part", kind, *parts, path_of([2.0] * 4), states_of(), 0.1, INTERVALS)
     assert row["reason"] == "no load"
     kept = {"exponent_at_end", "coordination_number_near", "sharing_index"} - {column}
     assert kept <= set(row) and column not in row
@@ -179,9 +180,9 @@ def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(part, colum
 
 
 def test_row_of_a_sample_without_any_data_says_only_why():
-    settings = {"boundary": "periodic", "contact": {"law": "linear"}}
+    kind = SampleKind("periodic", "linear", {"form": "single"})
     nothing = [{"reason": "no load"}] * 3
-    row = finding_row("loose", settings, *nothing, None, None, 0.1, INTERVALS)
+    row = finding_row("loose", kind, *nothing, None, None, 0.1, INTERVALS)
     assert set(row) == {"sample", "boundary", "contact_law", "reason"}
     found = verdicts([row])
     assert not any(found.values())

@@ -1,34 +1,34 @@
 """What a study will cost, by hand."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from branchcrush.gradings.forms import uniform
 from branchcrush.gradings.mixtures import single
+from branchcrush.loading.sample import Sample
+from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import LinearContact
 from branchcrush.study.preview import Plan, preview_text, sample_plan
 
-LAW = LinearContact(1e6)
-LOADING = {
-    "target": "edge_reduction",
-    "value": 0.4,
-    "states": 15,
-    "approach_solid_fraction": 0.55,
-    "unloading": False,
-}
+LOADING = Loading("edge_reduction", 0.4)
 
 
 def plan_of(grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, **loading):
-    sample = {
-        "grains": grains,
-        "initial_solid_fraction": 0.16,
-        "loading": {**LOADING, **loading},
-        "strain_step": 1.7e-3,
-        "seeds": list(range(seeds)),
-        "ranks": 1,
-    }
-    return sample_plan(sample, refined, grading or single(1e-3), LAW, seconds)
+    sample = Sample(
+        grading=grading or single(1e-3),
+        sampling="random",
+        grains=grains,
+        boundary="walls",
+        initial_solid_fraction=0.16,
+        law=LinearContact(1e6),
+        loading=replace(LOADING, **loading),
+        strain_step=1.7e-3,
+        seeds=tuple(range(seeds)),
+        refined_seeds=refined,
+    )
+    return sample_plan(sample, seconds)
 
 
 def test_evaluations_and_time_of_a_thousand_grains_are_those_of_their_steps_and_states():
