@@ -83,11 +83,13 @@ publish: run ## the figures and tables that README and docs show, from this run
 test: lint ## the linters, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile
 
-lint: $(DEVELOP) ## style and the workflow's own checks
+lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(IN_ENVIRONMENT) snakemake --lint
+	$(BIN)/lint-imports --no-logo
+	$(BIN)/mypy
 
 # uv installs in a quarter of pip's time but does not read pip's settings, so where the index is a
 # mirror named only to pip, pip installs. Without build isolation a package that comes as source is
@@ -148,5 +150,5 @@ lock: ## write requirements.lock and requirements-dev.lock anew from pyproject.t
 	mv build/lock/requirements.lock build/lock/requirements-dev.lock .
 
 clean: ## remove the environment and what the tools leave; results/ stays
-	rm -rf $(VENV) build .pytest_cache .ruff_cache .hypothesis src/*.egg-info
+	rm -rf $(VENV) build .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis src/*.egg-info
 	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
