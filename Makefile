@@ -11,16 +11,19 @@ PART ?= all
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+# With what tests, docs and linters need besides, which a run does not install.
+DEVELOP := $(READY) $(VENV)/.develop
 
 # Jobs of a workflow call `python` by name and must meet the environment's.
 IN_ENVIRONMENT := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-# Packages outside the lock must not be found.
-unexport PYTHONPATH PYTHONHOME
+# Packages outside the lock must not be found. Packages are compiled when first imported, a quarter
+# of what compiling all of them takes; without bytecode each job would do it anew.
+unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality findings bench publish test lint lock clean
+.PHONY: help run preview example gallery quality findings bench publish test lint lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -80,20 +83,30 @@ publish: run ## the figures and tables that README and docs show, from this run
 test: lint ## the linters, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile
 
-lint: $(READY) ## style and the workflow's own checks
+lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(IN_ENVIRONMENT) snakemake --lint
+	$(BIN)/lint-imports --no-logo
+	$(BIN)/mypy
 
 # uv installs in a quarter of pip's time but does not read pip's settings, so where the index is a
 # mirror named only to pip, pip installs. Without build isolation a package that comes as source is
 # built by the pinned setuptools instead of by the newest one.
-PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check
-UV_INSTALL := $(BIN)/uv pip install --quiet --no-config --compile-bytecode --python $(BIN)/python
-FROM_LOCK := --no-build-isolation --require-hashes -r requirements.lock
+PIP_INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
+UV_INSTALL := $(BIN)/uv pip install --quiet --no-config --python $(BIN)/python
+FROM_LOCKS = --no-build-isolation --require-hashes $(addprefix -r ,$(1))
+INSTALL = $(UV_INSTALL) $(FROM_LOCKS) \
+  || { echo "uv did not succeed; pip is slower and tries again" >&2; $(PIP_INSTALL) $(FROM_LOCKS); } \
+  || { echo "error: no environment. Where no wheel fits (Python 3.14 and newer, musl), a C compiler is needed: apt-get install gcc python3-dev" >&2; exit 1; }
 
-$(VENV)/.packages: requirements.lock
+# Through a link another folder's environment would be emptied, and point to this folder's package.
+own-environment:
+	@test ! -L $(VENV) \
+	  || { echo "error: $(VENV) is a link to $$(readlink $(VENV)), which belongs to another folder, so nothing is installed there; remove the link, and make makes an environment here: rm $(VENV)" >&2; exit 1; }
+
+$(VENV)/.packages: requirements.lock | own-environment
 	@command -v $(PYTHON) >/dev/null \
 	  || { echo "error: no $(PYTHON) here; install Python 3.11 or newer, or name one: make PYTHON=python3.13" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "error: $(PYTHON) is %d.%d, and 3.11 or newer is needed; name one: make PYTHON=python3.13" % sys.version_info[:2])'
@@ -103,27 +116,39 @@ $(VENV)/.packages: requirements.lock
 	@$(PYTHON) -m venv --clear $(VENV)
 	@awk '/^[^ #]/ {keep = /^(setuptools|uv)==/} keep' requirements.lock > $(VENV)/bootstrap.txt
 	@$(PIP_INSTALL) --require-hashes -r $(VENV)/bootstrap.txt
-	@$(UV_INSTALL) $(FROM_LOCK) \
-	  || { echo "uv did not succeed; pip is slower and tries again" >&2; $(PIP_INSTALL) $(FROM_LOCK); } \
-	  || { echo "error: no environment. Where no wheel fits (Python 3.14 and newer, musl), a C compiler is needed: apt-get install gcc python3-dev" >&2; exit 1; }
+	@$(call INSTALL,requirements.lock)
 	@touch $@
 
 $(READY): $(VENV)/.packages pyproject.toml
 	@$(PIP_INSTALL) --no-deps --no-build-isolation --editable .
 	@touch $@
 
-# What is in the lock stays at its version: `make lock UPGRADE=--upgrade` moves everything to the
-# newest. uv ignores pip's settings, so no local index lends its own hashes; without
+# Both locks, so that what a run has stays at its version.
+$(VENV)/.develop: $(VENV)/.packages requirements-dev.lock | $(READY)
+	@echo "Adding to $(VENV) what tests, docs and linters need"
+	@$(call INSTALL,requirements.lock requirements-dev.lock)
+	@touch $@
+
+# One resolution for both, then two files: what a run needs, and what is to be added to it for all
+# else. What is in the locks stays at its version: `make lock UPGRADE=--upgrade` moves everything to
+# the newest. uv ignores pip's settings, so no local index lends its own hashes; without
 # --emit-index-url no address is written either.
-lock: ## write requirements.lock anew from pyproject.toml
+COMPILE := env -u UV_INDEX -u UV_EXTRA_INDEX_URL -u UV_FIND_LINKS -u UV_DEFAULT_INDEX -u UV_INDEX_URL \
+  build/lock/bin/uv pip compile --quiet --no-config --no-emit-index-url \
+  --universal --python-version 3.11 --fork-strategy fewest \
+  --generate-hashes --custom-compile-command "make lock" pyproject.toml
+
+lock: ## write requirements.lock and requirements-dev.lock anew from pyproject.toml
 	$(PYTHON) -m venv --clear build/lock
 	build/lock/bin/python -m pip install --quiet --disable-pip-version-check uv
-	env -u UV_INDEX -u UV_EXTRA_INDEX_URL -u UV_FIND_LINKS -u UV_DEFAULT_INDEX -u UV_INDEX_URL \
-	  build/lock/bin/uv pip compile --quiet \
-	  --no-config --no-emit-index-url --universal --python-version 3.11 --fork-strategy fewest \
-	  --generate-hashes --extra dev --custom-compile-command "make lock" $(UPGRADE) \
-	  --output-file requirements.lock pyproject.toml
+	cat requirements.lock requirements-dev.lock > build/lock/all.txt
+	$(COMPILE) --all-extras $(UPGRADE) --output-file build/lock/all.txt
+	cp build/lock/all.txt build/lock/requirements.lock
+	$(COMPILE) --extra build --output-file build/lock/requirements.lock
+	awk 'NR == FNR {run[$$0]; next} /^[^ #]/ {keep = !($$0 in run)} FNR < 3 || keep' \
+	  build/lock/requirements.lock build/lock/all.txt > build/lock/requirements-dev.lock
+	mv build/lock/requirements.lock build/lock/requirements-dev.lock .
 
 clean: ## remove the environment and what the tools leave; results/ stays
-	rm -rf $(VENV) build .pytest_cache .ruff_cache .hypothesis src/*.egg-info
+	rm -rf $(VENV) build .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis src/*.egg-info
 	find src tests workflow benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
