@@ -22,6 +22,7 @@ from branchcrush.branches.predictions import (
     pair_shares,
 )
 from branchcrush.packings.network import state_network, state_networks
+from branchcrush.samples.ensemble import named_states
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.intervals import Resampling, pooled_interval
 
@@ -198,7 +199,7 @@ def contact_number_rows(seeds, models, classes, path, *, confidence, resamples):
     """
     predicted = _model_classes(models, classes)
     numbers, pairs = [], []
-    for number in dict.fromkeys((0, len(path) - 1)):
+    for number in named_states(path).values():
         state = int(path["state"].iloc[number])
         sums = [seed.sums[number] for seed in seeds]
         table = contact_number_table(
@@ -242,12 +243,13 @@ def touching_summary(seeds, models, rows, path, *, confidence, resamples):
     Returns
     -------
     dict
-        near_jamming and end, each with the state, its coordination number, assortativity of radii
-        and of their logarithms with intervals, and distances of the predictions; and what the
-        models say of coordination number and rattlers at the jamming point.
+        near_jamming (only where there is more than one state) and end, each with the state, its
+        coordination number, assortativity of radii and of their logarithms with intervals, and
+        distances of the predictions; and what the models say of coordination number and rattlers
+        at the jamming point.
     """
     summary = {"seeds": len(seeds)}
-    for where, number in (("near_jamming", 0), ("end", -1)):
+    for where, number in named_states(path).items():
         state = path.iloc[number]
         sums = [seed.sums[number] for seed in seeds]
         rng = Resampling.CONTACTS.rng()
