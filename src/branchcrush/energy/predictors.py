@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from branchcrush.energy.fit import Curvature, FittedPredictor
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
 from branchcrush.statistics.intervals import Resampling, pooled_interval
@@ -124,34 +125,40 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
 
     Returns
     -------
-    list of dict
-        name, formula; parameters, each with estimate, low and high; explained_deviance and
-        difference_to_branch_length with _low and _high; or reason. Where no seeds can be left out,
-        as when there is one, these are nan and left_out_reason says why.
+    tuple of FittedPredictor
+        As in `PREDICTORS`. Where no seeds can be left out, as when there is one, what is explained
+        is nan and `left_out_reason` says why.
     """
     options = {"confidence": confidence, "resamples": resamples}
     nothing, _ = _judged(seeds, _CONSTANT)
-    left_out, found = {}, []
+    by_length, fitted = None, []
     for name, predictor in PREDICTORS.items():
-        entry = {"name": name, "formula": predictor.formula}
-        found.append(entry)
         try:
             fit = gamma_fit(seeds, predictor.design)
         except FitError as error:
-            entry["reason"] = str(error)
+            fitted.append(FittedPredictor.without(name, predictor.formula, str(error)))
             continue
         limits = parameter_intervals(fit, rng=Resampling.PREDICTORS.rng(), **options)
-        entry["parameters"] = _named(predictor.names, limits)
-        left_out[name], reason = _judged(seeds, predictor.design, fit.parameters)
-        entry |= _explained(left_out, name, nothing, options)
-        if reason:
-            entry["left_out_reason"] = reason
-    return found
-
-
-def _named(names, limits):
-    # The first parameter is the scale.
-    return {name: limits.part(number)._asdict() for number, name in enumerate(names, start=1)}
+        # The first parameter is the scale.
+        parameters = {key: limits.part(k) for k, key in enumerate(predictor.names, start=1)}
+        left_out, reason = _judged(seeds, predictor.design, fit.parameters)
+        if name == "branch_length":
+            by_length = left_out
+        fitted.append(
+            FittedPredictor(
+                name,
+                predictor.formula,
+                parameters,
+                explained=_gained(nothing, left_out, nothing, options),
+                difference=None
+                if by_length is None
+                else _gained(by_length, left_out, nothing, options),
+                # The one that the energy split is about; its exponent beside that of the bins.
+                exponent=parameters["exponent"].estimate if name == "branch_length" else None,
+                left_out_reason=reason or None,
+            )
+        )
+    return tuple(fitted)
 
 
 def _judged(seeds, design, start=None):
@@ -177,18 +184,14 @@ def _left_out(seeds, design, start):
     return found
 
 
-def _explained(left_out, name, nothing, options):
-    pairs = {"explained_deviance": nothing}
-    if "branch_length" in left_out:
-        pairs["difference_to_branch_length"] = left_out["branch_length"]
-    entry = {}
-    for key, other in pairs.items():
-        sums = np.stack([other - left_out[name], nothing], axis=1)
-        share = pooled_interval(
-            sums, lambda x: x[:, 0] / x[:, 1], rng=Resampling.PREDICTORS.rng(), **options
-        )
-        entry |= share.named(key)
-    return entry
+def _gained(other, deviances, nothing, options):
+    """Return how much less deviance there is than by another predictor, over that of none."""
+    return pooled_interval(
+        np.stack([other - deviances, nothing], axis=1),
+        lambda x: x[:, 0] / x[:, 1],
+        rng=Resampling.PREDICTORS.rng(),
+        **options,
+    )
 
 
 def curvature(seeds, *, confidence=0.95, resamples=2000):
@@ -207,9 +210,7 @@ def curvature(seeds, *, confidence=0.95, resamples=2000):
 
     Returns
     -------
-    dict
-        curvature, slope_at_10_percent, slope_at_mean and slope_at_90_percent of the branches, each
-        with _low and _high.
+    Curvature
 
     Raises
     ------
@@ -234,9 +235,4 @@ def curvature(seeds, *, confidence=0.95, resamples=2000):
     limits = parameter_intervals(
         fit, wanted, confidence=confidence, resamples=resamples, rng=Resampling.PREDICTORS.rng()
     )
-    names = ("curvature", "slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
-    return {
-        key: value
-        for number, name in enumerate(names)
-        for key, value in limits.part(number).named(name).items()
-    }
+    return Curvature(*(limits.part(number) for number in range(4)))
