@@ -148,7 +148,7 @@ class Curvature:
         """Return the curvature of which a file holds this."""
         if "reason" in result:
             return cls.without(result["reason"])
-        return cls(*(Interval.read(result, name) for name in _BENDS))
+        return cls(**{name: Interval.read(result, name) for name in _BENDS})
 
 
 @dataclass(frozen=True)

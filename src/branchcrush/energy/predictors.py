@@ -4,7 +4,8 @@ Every predictor gives the mean energy of a branch from its two radii. Each is fi
 of some seeds and then asked about the branches of the others.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,12 +21,28 @@ _RESIDUE = 1e-8
 _FOLDS = 4
 
 
-class Predictor(NamedTuple):
-    """A mean energy as a function of two radii, in logarithms of R/R_max."""
+@dataclass(frozen=True)
+class Predictor:
+    """A mean energy as a function of two radii, in logarithms of R/R_max, and how it is drawn.
+
+    Parameters
+    ----------
+    formula : str
+    names : tuple of str
+        Of the parameters after the scale.
+    design : callable
+        As `statistics.gamma_regression.gamma_fit` takes it.
+    label : str
+        What figures call it.
+    color, marker : str
+    """
 
     formula: str
-    names: tuple[str, ...]  # of the parameters after the scale
-    design: object  # as `statistics.gamma_regression.gamma_fit` takes it
+    names: tuple[str, ...]
+    design: Callable
+    label: str
+    color: str
+    marker: str
 
 
 def _linear(columns, start):
@@ -59,19 +76,44 @@ def _grain_sizes(theta, small=None, large=None):
 
 PREDICTORS = {
     "branch_length": Predictor(
-        "A l^n", ("exponent",), _linear(lambda s, g: [log_length(s, g)], [3.0])
+        "A l^n",
+        ("exponent",),
+        _linear(lambda s, g: [log_length(s, g)], [3.0]),
+        label="branch length l",
+        color="#1f4e79",
+        marker="o",
     ),
     "reduced_radius": Predictor(
-        "A (r1 r2/(r1 + r2))^n", ("exponent",), _linear(lambda s, g: [_log_reduced(s, g)], [2.0])
+        "A (r1 r2/(r1 + r2))^n",
+        ("exponent",),
+        _linear(lambda s, g: [_log_reduced(s, g)], [2.0]),
+        label="reduced radius R*",
+        color="#3a7d44",
+        marker="D",
     ),
     "both_radii": Predictor(
-        "A r_min^a r_max^b", ("a", "b"), _linear(lambda s, g: [s, g], [1.0, 2.0])
+        "A r_min^a r_max^b",
+        ("a", "b"),
+        _linear(lambda s, g: [s, g], [1.0, 2.0]),
+        label=r"$r_{min}^a\, r_{max}^b$",
+        color="#8a5aa5",
+        marker="^",
     ),
-    "grain_size": Predictor("A (r1^q + r2^q)", ("exponent",), _grain_sizes),
+    "grain_size": Predictor(
+        "A (r1^q + r2^q)",
+        ("exponent",),
+        _grain_sizes,
+        label="grain size (Einav)",
+        color="#c1440e",
+        marker="s",
+    ),
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",
         ("s", "g", "ss", "sg", "gg"),
         _linear(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
+        label="any smooth function of both",
+        color="#444444",
+        marker="|",
     ),
 }
 _CONSTANT = _linear(lambda s, g: [], [])
