@@ -148,7 +148,8 @@ class Curvature:
         """Return the curvature of which a file holds this."""
         if "reason" in result:
             return cls.without(result["reason"])
-        return cls(**{name: Interval.read(result, name) for name in _BENDS})
+        curvature, short, mean, long = (Interval.read(result, name) for name in _BENDS)
+        return cls(curvature, short, mean, long)
 
 
 @dataclass(frozen=True)
