@@ -20,7 +20,7 @@ _END_NAMES = {
     "jamming_solid_fraction": "jamming_solid_fraction",
     "mean_stress": "mean_stress_Pa",
     "elastic_energy_density": "elastic_energy_J_per_m3",
-    "median_overlap_ratio": "median_overlap_ratio",
+    "median_overlap_over_length": "median_overlap_over_length",
     "coordination_number": "coordination_number",
     "mechanical_coordination_number": "mechanical_coordination_number",
     "rattler_fraction": "rattler_fraction",
@@ -207,8 +207,8 @@ class EndState:
         [Pa]
     elastic_energy_density : float
         [J/m3]
-    median_overlap_ratio : float
-        Overlap over branch length [-].
+    median_overlap_over_length : float
+        Overlap over branch length [-]; that over the smaller radius is another.
     coordination_number, mechanical_coordination_number, rattler_fraction : float
         [-]
     """
@@ -219,7 +219,7 @@ class EndState:
     jamming_solid_fraction: float
     mean_stress: float
     elastic_energy_density: float
-    median_overlap_ratio: float
+    median_overlap_over_length: float
     coordination_number: float
     mechanical_coordination_number: float
     rattler_fraction: float
@@ -258,8 +258,10 @@ class EnergySplitFit:
         None where no seed is certified.
     cubic_slope, cubic_r_squared : float
         Of the paper's Fig. 6 [-].
-    end, near_jamming : StateFit
-        What is fitted to all branches at once, at the end and in the first loaded state.
+    end : StateFit
+        What is fitted to all branches at once, at the end.
+    near_jamming : StateFit or None
+        The same in the first loaded state; None where that is the end.
     reason : str or None
         Why there is no energy split; the numbers are nan then.
 
@@ -282,7 +284,7 @@ class EnergySplitFit:
     cubic_slope: float
     cubic_r_squared: float
     end: StateFit
-    near_jamming: StateFit
+    near_jamming: StateFit | None
     reason: str | None = None
 
     @classmethod
@@ -320,7 +322,7 @@ class EnergySplitFit:
             "cubic_slope": self.cubic_slope,
             "cubic_r_squared": self.cubic_r_squared,
             **self.end.result(),
-            "near_jamming": self.near_jamming.result(),
+            **({} if self.near_jamming is None else {"near_jamming": self.near_jamming.result()}),
         }
 
     @classmethod
@@ -330,6 +332,7 @@ class EnergySplitFit:
         if "reason" in result:
             return cls.without(result["reason"], packings)
         ends = {key: result[key] for key in ("predictors", "curvature")}
+        near = result.get("near_jamming")
         return cls(
             exponent=Interval.read(result, "exponent"),
             confidence=result["confidence"],
@@ -341,5 +344,5 @@ class EnergySplitFit:
             cubic_slope=_number(result["cubic_slope"]),
             cubic_r_squared=_number(result["cubic_r_squared"]),
             end=StateFit.read(ends),
-            near_jamming=StateFit.read(result["near_jamming"]),
+            near_jamming=None if near is None else StateFit.read(near),
         )
