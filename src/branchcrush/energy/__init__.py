@@ -3,11 +3,12 @@
 `split`
     `energy_split` makes the energy-split function f(l) of binned energies, `cubic_r_squared` the
     paper's Fig. 6. The exponent itself is fitted in `statistics.power_law`.
-`predictors`
+`predictors`, `designs`
     `PREDICTORS` holds the mean energies of a branch as functions of its two radii, with the look of
-    each in figures. `compared_predictors` fits them all and judges each on seeds left out;
+    each in figures. `compared_predictors` fits them all and judges each on seeds left out.
+`curvature`
     `curvature` says how far the energies are from a power law of branch length.
-`fit`
+`fit`, `state_fit`
     `EnergySplitFit` and its parts are what is known of the energy split of a sample: the types
     behind `energy_split.json`.
 `shielding`, `shielding_branches`, `shielding_grains`

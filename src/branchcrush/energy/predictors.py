@@ -11,7 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from branchcrush.energy.fit import Curvature, FittedPredictor
+from branchcrush.energy.designs import (
+    grain_sizes,
+    linear_design,
+    log_length,
+    log_reduced_radius,
+)
+from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
 from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
@@ -50,64 +56,11 @@ class Predictor:
     marker: str
 
 
-def _linear(
-    columns: Callable[[NDArray, NDArray], list[NDArray]], start: list[float]
-) -> Callable[..., Any]:
-    """Return the design of a linear predictor from what makes its columns of ln r_min, ln r_max."""
-
-    def design(
-        theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
-    ) -> Any:
-        if theta is None or small is None or large is None:
-            return [0.0, *start]
-        slope = np.stack([np.ones_like(small), *columns(small, large)], axis=1)
-        return slope @ theta, slope
-
-    return design
-
-
-def log_length(small: NDArray, large: NDArray) -> NDArray:
-    r"""Return the logarithm of the branch length over R_max.
-
-    .. math:: \ln\frac{r_{min} + r_{max}}{R_{max}}
-
-    Parameters
-    ----------
-    small, large : ndarray, shape (M,)
-        ln(r_min/R_max) and ln(r_max/R_max) [-].
-
-    Returns
-    -------
-    ndarray, shape (M,)
-        [-]
-
-    Examples
-    --------
-    >>> round(float(np.exp(log_length(np.log(0.25), np.log(0.5)))), 12)
-    0.75
-    """
-    return large + np.log1p(np.exp(small - large))
-
-
-def _log_reduced(small: NDArray, large: NDArray) -> NDArray:
-    return small + large - log_length(small, large)
-
-
-def _grain_sizes(
-    theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
-) -> Any:
-    if theta is None or small is None or large is None:
-        return [0.0, 3.0]
-    share = 1.0 / (1.0 + np.exp(theta[1] * (small - large)))  # of the larger grain
-    eta = theta[0] + theta[1] * large - np.log(share)
-    return eta, np.stack([np.ones_like(small), share * large + (1.0 - share) * small], axis=1)
-
-
 PREDICTORS = {
     "branch_length": Predictor(
         "A l^n",
         ("exponent",),
-        _linear(lambda s, g: [log_length(s, g)], [3.0]),
+        linear_design(lambda s, g: [log_length(s, g)], [3.0]),
         label="branch length l",
         color="#1f4e79",
         marker="o",
@@ -115,7 +68,7 @@ PREDICTORS = {
     "reduced_radius": Predictor(
         "A (r1 r2/(r1 + r2))^n",
         ("exponent",),
-        _linear(lambda s, g: [_log_reduced(s, g)], [2.0]),
+        linear_design(lambda s, g: [log_reduced_radius(s, g)], [2.0]),
         label="reduced radius R*",
         color="#3a7d44",
         marker="D",
@@ -123,7 +76,7 @@ PREDICTORS = {
     "both_radii": Predictor(
         "A r_min^a r_max^b",
         ("a", "b"),
-        _linear(lambda s, g: [s, g], [1.0, 2.0]),
+        linear_design(lambda s, g: [s, g], [1.0, 2.0]),
         label=r"$r_{min}^a\, r_{max}^b$",
         color="#8a5aa5",
         marker="^",
@@ -131,7 +84,7 @@ PREDICTORS = {
     "grain_size": Predictor(
         "A (r1^q + r2^q)",
         ("exponent",),
-        _grain_sizes,
+        grain_sizes,
         label="grain size (Einav)",
         color="#c1440e",
         marker="s",
@@ -139,14 +92,14 @@ PREDICTORS = {
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",
         ("s", "g", "ss", "sg", "gg"),
-        _linear(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
+        linear_design(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
         label="any smooth function of both",
         color="#444444",
         marker="|",
     ),
 }
 # Nothing but a scale: what is explained is explained beyond it.
-_CONSTANT = _linear(lambda s, g: [], [])
+_CONSTANT = linear_design(lambda s, g: [], [])
 
 
 def branch_columns(
@@ -286,56 +239,3 @@ def _gained(
         rng=Resampling.PREDICTORS.rng(),
         **options,
     )
-
-
-def curvature(
-    seeds: Sequence[BranchColumns], *, confidence: float = 0.95, resamples: int = 2000
-) -> Curvature:
-    r"""Return how far the energies are from a power law of branch length: its curvature.
-
-    .. math:: \ln \langle E \rangle = \ln A + n \ln\frac{l}{l_0} + c \left(\ln\frac{l}{l_0}\right)^2
-
-    l_0 is the geometric mean length, so n is the slope there. The power law is contradicted when
-    the interval of c leaves out 0. The slopes at short and long branches, n + 2 c ln(l/l_0), say
-    what that amounts to.
-
-    Parameters
-    ----------
-    seeds, confidence, resamples
-        As for `compared_predictors`.
-
-    Returns
-    -------
-    Curvature
-
-    Raises
-    ------
-    FitError
-        When fewer than three lengths carry energy.
-
-    Examples
-    --------
-    >>> log = np.linspace(-1.0, 1.0, 11)
-    >>> bend = curvature([(log, log, np.exp(3.0 * log + 0.5 * log**2))])  # l = 2 r, l_0 = 2
-    >>> round(bend.curvature.estimate, 9), round(bend.slope_at_mean.estimate, 9)
-    (0.5, 3.0)
-    """
-    logs = np.concatenate([log_length(small, large) for small, large, _ in seeds])
-    centre = logs.mean() if logs.size else 0.0
-    short, long = np.quantile(logs - centre, [0.1, 0.9]) if logs.size else (0.0, 0.0)
-    del logs
-
-    def columns(small: NDArray, large: NDArray) -> list[NDArray]:
-        x = log_length(small, large) - centre
-        return [x, x * x]
-
-    fit = gamma_fit(seeds, _linear(columns, [3.0, 0.0]))
-
-    def wanted(theta: NDArray) -> NDArray:
-        slope, bend = theta[:, 1], theta[:, 2]
-        return np.stack([bend, slope + 2 * bend * short, slope, slope + 2 * bend * long], axis=1)
-
-    limits = parameter_intervals(
-        fit, wanted, confidence=confidence, resamples=resamples, rng=Resampling.PREDICTORS.rng()
-    )
-    return Curvature(limits.part(0), limits.part(1), limits.part(2), limits.part(3))

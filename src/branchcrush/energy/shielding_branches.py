@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.energy.predictors import BranchColumns, branch_columns, log_length
+from branchcrush.energy.designs import log_length
+from branchcrush.energy.predictors import BranchColumns, branch_columns
 from branchcrush.energy.shielding import LARGER, ROUNDING, claim_answer
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
