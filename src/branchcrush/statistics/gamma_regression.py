@@ -72,7 +72,45 @@ def gamma_fit(seeds, design, start=None):
     ----------
     McCullagh and Nelder (1989), Generalized Linear Models, chapter 8.
     """
-    seeds = [tuple(np.asarray(column, dtype=float) for column in seed) for seed in seeds]
+    seeds = _as_arrays(seeds)
+    step, theta, scores, information = _settled(seeds, design, start)
+    return GammaFit(theta + step, scores, *_curved(seeds, design, theta, information))
+
+
+def fitted_parameters(seeds, design, start=None):
+    """Return the parameters of `gamma_fit` alone: all that a judgement of other seeds needs.
+
+    Parameters
+    ----------
+    seeds, design, start
+        As for `gamma_fit`.
+
+    Returns
+    -------
+    ndarray, shape (p,)
+
+    Raises
+    ------
+    FitError
+        As `gamma_fit`.
+
+    Examples
+    --------
+    >>> x = np.log([1.0, 2.0, 4.0])
+    >>> line = lambda theta, x: (theta[0] + theta[1] * x, np.stack([np.ones_like(x), x], axis=1))
+    >>> fitted_parameters([(x, [5.0, 40.0, 320.0])], line, [0.0, 1.0]).round(9).tolist()
+    [1.609437912, 3.0]
+    """
+    step, theta, _, _ = _settled(_as_arrays(seeds), design, start)
+    return theta + step
+
+
+def _as_arrays(seeds):
+    return [tuple(np.asarray(column, dtype=float) for column in seed) for seed in seeds]
+
+
+def _settled(seeds, design, start):
+    """Return the last step and where it was made, with the sums of the seeds there."""
     energies = [seed[-1] for seed in seeds]
     number = sum(energy.size for energy in energies)
     total = sum(energy.sum() for energy in energies)
@@ -94,7 +132,7 @@ def gamma_fit(seeds, design, start=None):
         step = _solved(whole, scores.sum(axis=0))
         step *= min(1.0, 2.0 / np.abs(step).max(initial=1e-300))
         if np.abs(step).max() < _CONVERGED:
-            return GammaFit(theta + step, scores, *_curved(seeds, design, theta, information))
+            return step, theta, scores, information
         theta = theta + step
     raise FitError("the fit did not settle: too few branches carry energy")
 
@@ -121,7 +159,11 @@ def _sums(seeds, design, theta):
                 ratio = energy[piece] * np.exp(-eta)
                 loss += eta.sum() + ratio.sum()
                 scores[number] += (ratio - 1.0) @ slope
-                information[number] += (slope * ratio[:, None]).T @ slope
+                # Column by column: a product of both is slow where the rows are short.
+                weighted = np.empty_like(slope)
+                for k in range(theta.size):
+                    np.multiply(slope[:, k], ratio, out=weighted[:, k])
+                information[number] += weighted.T @ slope
     return loss, scores, information
 
 
