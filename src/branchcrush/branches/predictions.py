@@ -207,7 +207,7 @@ def binned_predictions(models, edges):
     }
 
 
-def lumped(radius, contacts, cells=2 * _CELLS):
+def lumped(radius, contacts, cells=2 * _CELLS, order=None):
     """Return grains in groups of nearly one radius: mean radius, and contacts of all of the group.
 
     Parameters
@@ -216,6 +216,8 @@ def lumped(radius, contacts, cells=2 * _CELLS):
         Of each grain [m], [-].
     cells : int
         Groups at most.
+    order : array_like of int, shape (N,), optional
+        `radius_order`, for those who ask for many states of the same grains.
 
     Returns
     -------
@@ -228,16 +230,38 @@ def lumped(radius, contacts, cells=2 * _CELLS):
     [[1.0, 2.0], [8.0, 9.0]]
     """
     radius, contacts = np.asarray(radius, dtype=float), np.asarray(contacts, dtype=float)
-    values, group = np.unique(radius, return_inverse=True)
-    if values.size > cells:
+    order = radius_order(radius) if order is None else order
+    ascending = np.cumsum(np.diff(radius[order], prepend=radius[order[:1]]) > 0.0)
+    if ascending[-1] >= cells:
         # As many grains and contacts in each: the few that most branches end at are told apart.
-        order = np.argsort(radius, kind="stable")
         weight = np.cumsum(1.0 / radius.size + contacts[order] / max(contacts.sum(), 1.0))
-        group = np.empty(radius.size, dtype=int)
-        group[order] = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
-        _, group = np.unique(group, return_inverse=True)
+        ascending = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
+        # Numbered without gaps.
+        ascending = np.cumsum(np.diff(ascending, prepend=ascending[:1]) > 0)
+    group = np.empty(radius.size, dtype=int)
+    group[order] = ascending
     number = np.bincount(group)
     return np.bincount(group, radius) / number, np.bincount(group, contacts)
+
+
+def radius_order(radius):
+    """Return the order of increasing radius, grains of one radius as they are.
+
+    Parameters
+    ----------
+    radius : array_like, shape (N,)
+        [m]
+
+    Returns
+    -------
+    ndarray of int, shape (N,)
+
+    Examples
+    --------
+    >>> radius_order([2.0, 1.0, 2.0]).tolist()
+    [1, 0, 2]
+    """
+    return np.argsort(radius, kind="stable")
 
 
 def distances(counts, shares, edges):
