@@ -16,7 +16,6 @@ from branchcrush.branches.predictions import (
     mode_length,
     pair_shares,
     predictions,
-    radius_order,
 )
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
@@ -142,7 +141,7 @@ def length_prediction_rows(
     predicted = {name: model.shares for name, model in models.items()}
     middle = (edges[:-1] + edges[1:]) / 2.0
     radius = np.concatenate([seed.radius for seed in seeds])
-    order = radius_order(radius)
+    order = np.argsort(radius, kind="stable")
     rows = []
     for number, state in enumerate(path.to_dict("records")):
         counts = np.array([seed.lengths[number] for seed in seeds])
