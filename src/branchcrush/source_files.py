@@ -30,13 +30,13 @@ def imported_modules(path: str | PathLike[str]) -> frozenset[str]:
     """
     modules = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "branchcrush":
-            base = node.module.removeprefix("branchcrush").lstrip(".")
-            names = {f"{base}.{alias.name}".lstrip(".") for alias in node.names}
-            # `from branchcrush import tables` names a module, `from branchcrush.errors import X`
-            # a name inside one.
-            modules |= {name for name in names if _file(name)} or {base}
-    return frozenset(name for name in modules if _file(name))
+        if isinstance(node, ast.Import):
+            modules |= {_module(alias.name) for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            # `from branchcrush.files import X` names a module of the room, or something in its own.
+            names = (f"{node.module}.{alias.name}" for alias in node.names)
+            modules |= {_module(name) or _module(node.module) for name in names}
+    return frozenset(modules - {None})
 
 
 def source_files(path: str | PathLike[str]) -> list[str]:
@@ -65,6 +65,12 @@ def source_files(path: str | PathLike[str]) -> list[str]:
             seen.add(module)
             pending += imported_modules(_file(module))
     return sorted(str(_file(module)) for module in seen)
+
+
+def _module(name):
+    """Return the name below the package that an import names, or None for another's."""
+    package, _, module = name.partition(".")
+    return module if package == "branchcrush" and _file(module) else None
 
 
 def _file(module):

@@ -1,12 +1,11 @@
 """The files of one seed, read as its contact network is made of them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from branchcrush.files.tables import read_packing, read_table
+from branchcrush.files.tables import Table, read_packing, read_table
 from branchcrush.packings.network import COLUMNS, VECTOR_COLUMNS, WALL_COLUMNS
 
 
@@ -20,7 +19,7 @@ class SeedFiles(Protocol):
 
 def read_contacts(
     files: SeedFiles, number: int, *, vectors: bool = False
-) -> tuple[np.ndarray, Mapping[str, ArrayLike], Mapping[str, ArrayLike]]:
+) -> tuple[np.ndarray, Table, Table]:
     """Return radii, contacts and wall contacts of a seed, for `packings.network.state_network`.
 
     Parameters

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,9 @@ from branchcrush.files.replacing import replacing
 if TYPE_CHECKING:
     import pandas as pd
 
+# What `read_table` returns, for hints in rooms that do not import pandas.
+Table: TypeAlias = "pd.DataFrame"
+
 
 def provenance(**origin: Any) -> dict[str, Any]:
     """Return what made a result: the version and, by name, sample, seed and config sections.
@@ -32,7 +35,7 @@ def provenance(**origin: Any) -> dict[str, Any]:
     Returns
     -------
     dict
-        As `write_table`, `write_json` and `write_packing` take it.
+        For `write_table`, `write_json` and `write_packing`.
 
     Examples
     --------
@@ -69,12 +72,12 @@ def study_provenance(samples: Mapping[str, Mapping], **origin: Any) -> dict[str,
 
 def write_table(
     path: str | PathLike[str],
-    table: "pd.DataFrame | Mapping[str, ArrayLike] | Sequence[Mapping[str, Any]]",
+    table: "Table | Mapping[str, ArrayLike] | Sequence[Mapping[str, Any]]",
     origin: Mapping[str, Any],
 ) -> None:
     """Write a table as CSV, its provenance in a first comment line, or as Parquet.
 
-    A number has all its digits; one that is not known (nan) is an empty cell of CSV.
+    A number has all its digits; in CSV one that is not known is an empty cell.
 
     Parameters
     ----------
@@ -84,11 +87,6 @@ def write_table(
         A row may lack columns that another has.
     origin : dict
         From `provenance`.
-
-    Raises
-    ------
-    ValueError
-        When columns differ in length.
 
     Examples
     --------
@@ -127,7 +125,7 @@ def _columns(table):
     return dict(table.items())
 
 
-def read_table(path: str | PathLike[str], columns: Sequence[str] | None = None) -> "pd.DataFrame":
+def read_table(path: str | PathLike[str], columns: Sequence[str] | None = None) -> Table:
     """Return a table that `write_table` wrote.
 
     Parameters
@@ -150,7 +148,7 @@ def read_table(path: str | PathLike[str], columns: Sequence[str] | None = None) 
     return pd.read_csv(path, comment="#", usecols=chosen)
 
 
-def stacked_tables(tables: Mapping[str, "pd.DataFrame"]) -> "pd.DataFrame":
+def stacked_tables(tables: Mapping[str, Table]) -> Table:
     """Return the tables of all samples one below the other, with the sample of each row.
 
     Parameters
