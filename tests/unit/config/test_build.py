@@ -105,6 +105,21 @@ def test_sieve_file_gives_diameters(written):
     assert_allclose(cut.support(), (0.25e-3, 1e-3), rtol=1e-14)
 
 
+def test_sieve_file_that_is_cut_need_not_run_to_its_ends(written):
+    section = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm", "min": 0.1}
+    grading = grading_of({**section, "file": str(written("0.1,5\n1,50\n4,95\n")), "max": 4.0})
+    assert_allclose(grading.support(), (0.05e-3, 2e-3), rtol=1e-14)
+    # Half of the 90 % that are left.
+    assert_allclose(grading.mass_cdf(0.5e-3), 0.5, rtol=1e-12)
+
+
+def test_density_file_is_cut_where_the_section_says(written):
+    section = {"form": "density", "basis": "number", "file": str(written("1,1\n3,1\n")), **MM}
+    grading = grading_of({**section, "max": 2.0})
+    assert_allclose(grading.support(), (1e-3, 2e-3), rtol=1e-14)
+    assert_allclose(grading.number_cdf(1.25e-3), 0.25, rtol=1e-12)
+
+
 def test_density_file_is_by_its_basis(written):
     path = str(written("1,1\n3,1\n"))
     for basis in ("number", "mass"):

@@ -128,7 +128,8 @@ def test_refined_sample_differs_in_its_strain_steps_and_seeds_only():
 
 @pytest.mark.parametrize(("quality", "step"), [("draft", 6.8e-3), ("fine", 4.25e-4)])
 def test_quality_sets_the_strain_step(quality, step):
-    assert sample_of(loading={**LOADING, "quality": quality}).settings()["strain_step"] == step
+    settings = sample_of(loading={**LOADING, "quality": quality}).settings()
+    assert (settings["quality"], settings["strain_step"]) == (quality, step)
 
 
 # --- documented ----------------------------------------------------------------------------------
