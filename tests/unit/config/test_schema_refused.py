@@ -107,10 +107,27 @@ def test_message_names_the_key_its_value_and_what_is_allowed(path, value, shown,
     assert allowed in message.removeprefix(f"config: {path} = {shown}: ")
 
 
-def test_seed_of_a_list_is_named_by_its_place():
-    message = message_of(config_with("samples.mine.seeds", [1, -2]))
-    assert message.startswith("config: samples.mine.seeds.1 = -2: ")
-    assert "a whole number from 0 to" in message
+@pytest.mark.parametrize("seed", [-2, 2**32])
+def test_seed_of_a_list_is_named_by_its_place(seed):
+    message = message_of(config_with("samples.mine.seeds", [1, seed]))
+    assert message.startswith(f"config: samples.mine.seeds.1 = {seed}: ")
+    assert "a whole number from 0 to 4294967295" in message
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "shown"), [("poisson_ratio", 0.6, "0.6"), ("young_modulus", 0, "0 Pa")]
+)
+def test_keys_of_a_hertz_contact_have_their_own_bounds(key, value, shown):
+    hertz = {"law": "hertz", "young_modulus": 7e10, "poisson_ratio": 0.5}
+    checked_config(config_with("samples.mine.contact", hertz))
+    message = message_of(config_with("samples.mine.contact", {**hertz, key: value}))
+    assert message.startswith(f"config: samples.mine.contact.{key} = {shown}: must be a number")
+
+
+@pytest.mark.parametrize(("word", "near"), [("fractl", "fractal"), ("sieves", "sieve")])
+def test_misspelt_word_is_answered_with_the_nearest_one(word, near):
+    message = message_of(config_with("samples.mine.grading.form", word))
+    assert message.endswith(f"; did you mean '{near}'?")
 
 
 @pytest.mark.parametrize(
@@ -183,42 +200,6 @@ def test_unknown_key_with_no_near_one_is_answered_with_all_that_are_allowed():
     )
     message = message_of({"samples": {"mine": SAMPLE}, "plots": {}})
     assert message.endswith("allowed: samples, energy_split, thermodynamics, figures")
-
-
-@pytest.mark.parametrize(
-    "name", ["uniform", "fractal", "loading", "grading", "contact", "grains", "samples", "a.b"]
-)
-def test_sample_may_have_any_name_and_is_named_in_full(name):
-    raw = {"samples": {name: {**deepcopy(SAMPLE), "loading": {**LOADING, "stats": 1}}}}
-    expected = f"config: samples.{name}.loading.stats: unknown key; did you mean states?"
-    assert message_of(raw) == expected
-    raw = {"samples": {name: {**deepcopy(SAMPLE), "grains": 1}}}
-    assert message_of(raw).startswith(f"config: samples.{name}.grains = 1: ")
-    raw = {"samples": {name: {**deepcopy(SAMPLE), "grading": {**FRACTAL, "alpha": -1}}}}
-    assert message_of(raw).startswith(f"config: samples.{name}.grading.alpha = -1: ")
-    assert list(checked_config({"samples": {name: SAMPLE}}).samples) == [name]
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["two words", "../up", "-first", "", "a/b", "a{b}", "line\n", "ä", "figures", "report.html"],
-)
-def test_sample_name_that_cannot_name_a_folder_is_refused(name):
-    message = message_of({"samples": {name: SAMPLE}})
-    assert f" = {name!r}: a name must " in message
-
-
-def test_sample_name_that_is_no_text_or_too_long_is_refused():
-    message = message_of({"samples": {2024: SAMPLE}})
-    assert message == "config: samples.2024 = 2024: a name must be text: put it in quotes"
-    assert "1 to 100 letters" in message_of({"samples": {"a" * 101: SAMPLE}})
-    assert list(checked_config({"samples": {"a" * 100: SAMPLE}}).samples) == ["a" * 100]
-
-
-def test_name_kept_for_the_convergence_study_is_refused():
-    message = message_of({"samples": {"mine-refined": SAMPLE}})
-    assert message.startswith("config: samples.mine-refined = 'mine-refined': ")
-    assert "must not end in -refined" in message
 
 
 def test_sizes_out_of_order_are_refused_with_both():
