@@ -45,8 +45,8 @@ def rule_on(networks, states, certified=(True, False, True, True)):
     """Return what the rule makes of the networks, the same in each state, and the seeds read."""
     read = []
 
-    def read_seed(number):
-        read.append(number)
+    def read_seed(number, wanted):
+        read.append((number, wanted))
         return networks[number].radius, *tables_of(networks[number], states)
 
     path = pd.DataFrame({"state": states, "leg": "loading", "carries_load": True})
@@ -59,7 +59,7 @@ def rule_on(networks, states, certified=(True, False, True, True)):
 
 def test_rule_reads_the_certified_seeds_one_by_one_and_tells_of_two_states(made):
     tables, summary, read = rule_on(made, [3, 5, 8])
-    assert read == [0, 2, 3]
+    assert read == [(0, [3, 8]), (2, [3, 8]), (3, [3, 8])]
     assert list(tables) == list(TABLES)
     assert [(where, part["state"]) for where, part in summary.items()] == [
         ("near_jamming", 3),

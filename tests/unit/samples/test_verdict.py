@@ -233,7 +233,7 @@ def test_without_an_exponent_or_an_interval_there_is_no_width(fit):
 GRADING = uniform(5e-6, 1e-3)
 
 
-def energies_of(exponent, state=2):
+def energies_of(exponent, state):
     """Return the energies of branches of twenty lengths that follow l^n exactly."""
     length = np.linspace(1e-4, 1.9e-3, 20)
     table = {"state": state, "radius_i_m": length / 2, "radius_j_m": length / 2}
@@ -259,8 +259,8 @@ def rule_on(refined, exponents=((3.0, 3.0), (3.0, 3.0))):
         pd.DataFrame(jamming),
         paths,
         refined_states=[states] if refined else [],
-        once=(again, lambda number: energies_of(exponents[0][number])),
-        twice=(again, lambda number: energies_of(exponents[1][number])),
+        once=(again, lambda number, state: energies_of(exponents[0][number], state)),
+        twice=(again, lambda number, state: energies_of(exponents[1][number], state)),
         report={"representativity": {"warnings": []}},
         fit=fit_of(),
         bins=20,
