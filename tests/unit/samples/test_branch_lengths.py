@@ -139,9 +139,9 @@ def rule_on(packings, states, *, end=True):
     path = path_of(states).assign(
         leg="loading",
         carries_load=True,
-        volume_m3=2.0,
+        volume_m3=[3.0, 2.0],
         void_ratio=0.5,
-        coordination_number=6.0,
+        coordination_number=[4.0, 6.0],
         mechanical_coordination_number=6.0,
         rattler_fraction=0.0,
     )
@@ -183,7 +183,9 @@ def test_rule_reads_the_certified_seeds_one_by_one_and_tells_of_each_state(growi
     assert set(tables["numbers"]["state"]) == set(tables["pairs"]["state"]) == set(STATES)
     statistics, summary = results["statistics"], results["contact_numbers"]
     assert (statistics["grains"], statistics["branches"]) == (1000, 3000)
+    # In 2 m3 at the end, where kappa is 6.
     assert statistics["branch_density_per_m3"] == 3000 / 2.0
+    assert statistics["branch_density_eq3_per_m3"] == pytest.approx(6.0 * 1000 / 2.0 / 2.0)
     assert (summary["seeds"], summary["end"]["state"]) == (2, STATES[-1])
 
 

@@ -10,6 +10,7 @@ from branchcrush.samples.ensemble import (
     certified_loading,
     end_of_loading,
     mean_path,
+    named_states,
     on_the_way_in,
     stacked,
 )
@@ -146,3 +147,15 @@ def test_mean_path_has_a_row_a_state_with_the_means_of_the_seeds():
     assert_allclose(found["solid_fraction_above_jamming"], [0.02, 0.06], rtol=1e-9)
     assert_allclose(found["mean_stress_Pa"], [2e4, 1e5], rtol=1e-12)
     assert_allclose(mean_path(paths[::-1], 0.65), found, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("states", "named"),
+    [
+        ([4], {"end": 0}),
+        ([4, 9], {"near_jamming": 0, "end": 1}),
+        ([4, 7, 9], {"near_jamming": 0, "end": 2}),
+    ],
+)
+def test_one_state_alone_is_not_called_near_jamming(states, named):
+    assert named_states(pd.DataFrame({"state": states})) == named

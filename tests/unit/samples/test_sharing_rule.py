@@ -1,5 +1,6 @@
 """Rule sharing: which seeds and states are read, and what is said where there are none."""
 
+import numpy as np
 import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
@@ -71,6 +72,28 @@ def test_rule_reads_the_certified_seeds_one_by_one_and_tells_of_two_states(made)
     expected, _ = shared([made[number] for number in (0, 2, 3)])
     told = fabric.loc[fabric["where"] == "end", "deviator"]
     assert_allclose(told, expected["fabric"]["deviator"], rtol=1e-12)
+
+
+def test_classes_of_radius_are_those_of_the_end():
+    # Twenty radii of many grains, whose contacts are evenly shared near jamming; at the end the
+    # largest have them all, and more classes.
+    networks = sample(seeds=1, radii=np.linspace(0.02, 1.0, 20))
+    radius = networks[0].radius
+    large = np.flatnonzero(radius > 0.9)
+    contacts, walls = tables_of(networks[0], [3])
+    end = contacts.assign(state=8)
+    end["i"], end["j"] = large[end["i"] % large.size], large[(end["i"] + 1) % large.size]
+    packing = radius, pd.concat([contacts, end], ignore_index=True), walls
+    path = pd.DataFrame({"state": [3, 8], "leg": "loading", "carries_load": True})
+    path["solid_fraction"] = 0.7
+    certificate = path.assign(seed=1, certified=True)
+    grading = from_radii(np.linspace(0.02, 1.0, 20))
+    tables, _ = sharing_results(
+        grading, 1.0, certificate, [path], lambda number, states: packing, **RULE
+    )
+    low = tables["stress_by_radius"]["radius_low_m"].unique()
+    # Half of the weight is that of the largest two sizes: no more than half of the edges below.
+    assert np.sum(low < 0.9) <= 6
 
 
 def test_rule_tells_one_state_as_the_end_alone(made):
