@@ -91,10 +91,12 @@ lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, 
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
 
+# What was read is kept for the next time, but not with warnings, which would not be repeated.
 docs: $(DEVELOP) ## the site of all pages and docstrings: build/docs/index.html
 	$(BIN)/python docs/pages.py build/docs-source
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --nitpicky --jobs $(CORES) \
-	  -c docs --doctree-dir build/docs-read build/docs-source build/docs
+	  -c docs --doctree-dir build/docs-read build/docs-source build/docs \
+	  || { rm -r build/docs-read; exit 1; }
 
 # uv installs in a quarter of pip's time but does not read pip's settings, so where the index is a
 # mirror named only to pip, pip installs. Without build isolation a package that comes as source is
