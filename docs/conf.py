@@ -9,7 +9,9 @@ from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 from jinja2.sandbox import SandboxedEnvironment
 from numpydoc import docscrape_sphinx
-from sphinx.util import logging
+from sphinx.util.logging import getLogger
+
+log = getLogger(__name__)
 
 project = "branchcrush"
 author = "The branchcrush developers"
@@ -67,7 +69,7 @@ def mathml(node, as_block):
     try:
         return tex2mathml(node.astext(), as_block=as_block)
     except MathError as error:
-        logging.getLogger(__name__).warning("no MathML: %s", error, location=node)
+        log.warning("no MathML: %s", error, location=node)
         return f"<code>{escape(node.astext())}</code>"
 
 
@@ -81,6 +83,14 @@ def visit_block(translator, node):
     raise nodes.SkipNode
 
 
+def warn_of_examples_in_text(app, doctree):
+    """Warn of examples without a blank line above them, which become part of a paragraph."""
+    for paragraph in doctree.findall(nodes.paragraph):
+        if ">>> " in paragraph.astext():
+            log.warning("an example needs a blank line above it", location=paragraph)
+
+
 def setup(app):
+    app.connect("doctree-read", warn_of_examples_in_text)
     app.add_html_math_renderer("mathml", (visit_inline, None), (visit_block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}
