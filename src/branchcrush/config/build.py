@@ -6,7 +6,7 @@ from dataclasses import fields
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
 from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
-from branchcrush.gradings import curves as gradings
+from branchcrush.gradings import forms, mixtures, tables
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import contact_law
@@ -40,7 +40,7 @@ def grading_of(section):
     if section["form"] == "mixture":
         parts = [grading_of(component["grading"]) for component in section["components"]]
         weights = [component["weight"] for component in section["components"]]
-        return gradings.mixture(parts, weights, section["basis"])
+        return mixtures.mixture(parts, weights, section["basis"])
     to_radius = UNITS[section["unit"]] * (0.5 if section["size"] == "diameter" else 1.0)
     if "file" in section:
         return _from_file(section, to_radius)
@@ -49,41 +49,41 @@ def grading_of(section):
         return section[key] * to_radius
 
     if section["form"] == "single":
-        return gradings.single(radius("value"))
+        return mixtures.single(radius("value"))
     ends, by = (radius("min"), radius("max")), section["basis"]
     match section["form"]:
         case "uniform":
-            return gradings.uniform(*ends, by)
+            return forms.uniform(*ends, by)
         case "loguniform":
-            return gradings.loguniform(*ends, by)
+            return forms.loguniform(*ends, by)
         case "normal":
-            return gradings.normal(radius("mean"), radius("standard_deviation"), *ends, by)
+            return forms.normal(radius("mean"), radius("standard_deviation"), *ends, by)
         case "lognormal":
             width = section["geometric_standard_deviation"]
-            return gradings.lognormal(radius("median"), width, *ends, by)
+            return forms.lognormal(radius("median"), width, *ends, by)
         case "weibull":
-            return gradings.weibull(radius("scale"), section["shape"], *ends, by)
+            return forms.weibull(radius("scale"), section["shape"], *ends, by)
         case "fractal":
-            return gradings.fractal(*ends, section["alpha"])
+            return forms.fractal(*ends, section["alpha"])
         case "fuller":
-            return gradings.fuller(*ends, section["exponent"])
+            return forms.fuller(*ends, section["exponent"])
     raise GradingError(f"there is no form of grading called {section['form']!r}")
 
 
 def _from_file(section, to_radius):
     path, form = section["file"], section["form"]
     if form == "radii":
-        return gradings.from_radii(read_radii(path) * to_radius)
+        return mixtures.from_radii(read_radii(path) * to_radius)
     ends = section.get("min"), section.get("max")
     radius_ends = [None if end is None else end * to_radius for end in ends]
     try:
         if form == "sieve":
             opening, percent = read_sieve_table(path, *ends)
-            return gradings.from_percent_finer(opening * to_radius, percent, *radius_ends)
+            return tables.from_percent_finer(opening * to_radius, percent, *radius_ends)
         if form == "density":
             size, density = read_density_table(path, *ends)
             by = section["basis"]
-            return gradings.from_density(size * to_radius, density, by, *radius_ends)
+            return tables.from_density(size * to_radius, density, by, *radius_ends)
     except GradingError as error:
         named = str(error) if str(path) in str(error) else f"{path}: {error}"
         raise GradingError(named) from None
