@@ -95,7 +95,7 @@ def test_a_better_quality_and_a_refinement_take_smaller_steps():
     assert strain_step("draft", 4) == strain_step("standard")
 
 
-# --- what is expected of a loading ------------------------------------------------------------------
+# --- what is expected of a loading ----------------------------------------------------------------
 
 
 def test_expected_overlap_of_linear_contacts_is_the_force_over_the_stiffness():
