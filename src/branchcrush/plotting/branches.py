@@ -2,17 +2,8 @@
 
 import numpy as np
 
+from branchcrush.branches.predictions import PREDICTIONS
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
-
-# Of every prediction: what it is called, its colour and its marker.
-PREDICTIONS = {
-    "random_contact": ("Eq. 4, any two alike", MODEL, "s"),
-    "mean_neighbour": ("solid angle, mean neighbour", "#c99a1a", "^"),
-    "surface": ("Bouvard-Lange", FAINT, "v"),
-    "self_consistent": ("self-consistent, rattler cut", "#8a5aa5", "D"),
-    "parking": ("random parking", OTHER, "o"),
-    "configuration": ("measured contact numbers", MEASURED, "P"),
-}
 
 
 def plot_contact_numbers(table, summary, radius_max, ax=None):

@@ -5,10 +5,10 @@ from itertools import takewhile
 import numpy as np
 from matplotlib.lines import Line2D
 
+from branchcrush.branches.predictions import PREDICTIONS
+from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.packings.contact_laws import CONTACT_LAWS
-from branchcrush.plotting.branches import PREDICTIONS
-from branchcrush.plotting.predictors import PREDICTORS
 from branchcrush.plotting.style import FAINT, axes
 from branchcrush.study.findings import GOOD_DISTANCE
 
@@ -117,10 +117,16 @@ def plot_samples(rows, kind, ax=None):
         "energies": ("explained_{}_end", PREDICTORS),
     }[kind]
     places = np.arange(len(rows))
-    for name, (label, color, marker) in looks.items():
+    for name, look in looks.items():
         if column.format(name) in rows:
             ax.plot(
-                rows[column.format(name)], places, marker, ls="", color=color, label=label, ms=4
+                rows[column.format(name)],
+                places,
+                look.marker,
+                ls="",
+                color=look.color,
+                label=look.label,
+                ms=4,
             )
     ax.set_yticks(places, rows["sample"])
     ax.invert_yaxis()
