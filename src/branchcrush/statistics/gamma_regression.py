@@ -79,8 +79,50 @@ def gamma_fit(seeds: Sequence[Seed], design: Design, start: ArrayLike | None = N
     ----------
     McCullagh and Nelder (1989), Generalized Linear Models, chapter 8.
     """
-    columns = [tuple(np.asarray(column, dtype=float) for column in seed) for seed in seeds]
-    energies = [seed[-1] for seed in columns]
+    branches = _as_arrays(seeds)
+    step, theta, scores, information = _settled(branches, design, start)
+    return GammaFit(theta + step, scores, *_curved(branches, design, theta, information))
+
+
+def fitted_parameters(
+    seeds: Sequence[Seed], design: Design, start: ArrayLike | None = None
+) -> NDArray:
+    """Return the parameters of `gamma_fit` alone: all that a judgement of other seeds needs.
+
+    Parameters
+    ----------
+    seeds, design, start
+        As for `gamma_fit`.
+
+    Returns
+    -------
+    ndarray, shape (p,)
+
+    Raises
+    ------
+    FitError
+        As `gamma_fit`.
+
+    Examples
+    --------
+    >>> x = np.log([1.0, 2.0, 4.0])
+    >>> line = lambda theta, x: (theta[0] + theta[1] * x, np.stack([np.ones_like(x), x], axis=1))
+    >>> fitted_parameters([(x, [5.0, 40.0, 320.0])], line, [0.0, 1.0]).round(9).tolist()
+    [1.609437912, 3.0]
+    """
+    step, theta, _, _ = _settled(_as_arrays(seeds), design, start)
+    return theta + step
+
+
+def _as_arrays(seeds: Sequence[Seed]) -> list[tuple[NDArray, ...]]:
+    return [tuple(np.asarray(column, dtype=float) for column in seed) for seed in seeds]
+
+
+def _settled(
+    seeds: list[tuple[NDArray, ...]], design: Design, start: ArrayLike | None
+) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """Return the last step and where it was made, with the sums of the seeds there."""
+    energies = [seed[-1] for seed in seeds]
     number = sum(energy.size for energy in energies)
     total = sum(energy.sum() for energy in energies)
     if not (number and total > 0.0 and np.isfinite(total)):
@@ -91,7 +133,7 @@ def gamma_fit(seeds: Sequence[Seed], design: Design, start: ArrayLike | None = N
     best = np.inf
     step = np.zeros(theta.size)
     for _ in range(_ITERATIONS):
-        loss, scores, information = _sums(columns, design, theta)
+        loss, scores, information = _sums(seeds, design, theta)
         if not loss <= best + 1e-12 * abs(best):  # a step too far, or not a number
             step /= 2.0
             theta = theta - step
@@ -101,7 +143,7 @@ def gamma_fit(seeds: Sequence[Seed], design: Design, start: ArrayLike | None = N
         step = _solved(whole, scores.sum(axis=0))
         step *= min(1.0, 2.0 / np.abs(step).max(initial=1e-300))
         if np.abs(step).max() < _CONVERGED:
-            return GammaFit(theta + step, scores, *_curved(columns, design, theta, information))
+            return step, theta, scores, information
         theta = theta + step
     raise FitError("the fit did not settle: too few branches carry energy")
 
@@ -131,7 +173,11 @@ def _sums(
                 ratio = energy[piece] * np.exp(-eta)
                 loss += eta.sum() + ratio.sum()
                 scores[number] += (ratio - 1.0) @ slope
-                information[number] += (slope * ratio[:, None]).T @ slope
+                # Column by column: a product of both is slow where the rows are short.
+                weighted = np.empty_like(slope)
+                for k in range(theta.size):
+                    np.multiply(slope[:, k], ratio, out=weighted[:, k])
+                information[number] += weighted.T @ slope
     return loss, scores, information
 
 
