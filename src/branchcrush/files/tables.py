@@ -7,6 +7,7 @@ import json
 import math
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -14,6 +15,11 @@ from branchcrush import __version__
 
 # pandas is imported where it is needed: the jobs of the seeds write tables without it, and start in
 # half the time.
+if TYPE_CHECKING:
+    import pandas as pd
+
+# What `read_table` returns, for hints in rooms that do not import pandas.
+Table: TypeAlias = "pd.DataFrame"
 
 
 def provenance(**origin):

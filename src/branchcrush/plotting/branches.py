@@ -1,8 +1,21 @@
 """Who touches whom: contact numbers by radius, pairs of radii, and predictions of the lengths."""
 
-import numpy as np
+from collections.abc import Mapping
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
+import numpy as np
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
+from branchcrush.plotting.style import (
+    FAINT,
+    MEASURED,
+    MODEL,
+    OTHER,
+    STATES,
+    above_jamming,
+    axes,
+    reason,
+)
 
 # Of every prediction: what it is called, its colour and its marker.
 PREDICTIONS = {
@@ -15,7 +28,9 @@ PREDICTIONS = {
 }
 
 
-def plot_contact_numbers(table, summary, radius_max, ax=None):
+def plot_contact_numbers(
+    table: Table, summary: Mapping, radius_max: float, ax: Axes | None = None
+) -> Axes:
     """Draw the contact number by radius near jamming and at the end, beside the models.
 
     Parameters
@@ -33,7 +48,9 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
     Axes
     """
     ax = axes(ax)
-    for where, color in (("near_jamming", MEASURED), ("end", "#6f9bc4")):
+    for where, (name, color) in STATES.items():
+        if where not in summary:  # one state is the end
+            continue
         state = summary[where]
         rows = table[table["state"] == state["state"]]
         low, high = (rows[f"contact_number_{part}"] for part in ("low", "high"))
@@ -47,7 +64,7 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
             fmt="o",
             color=color,
             lw=0.8,
-            label=rf"measured, $\phi$ = {state['solid_fraction']:.3f}",
+            label=rf"{name}, $\phi$ = {state['solid_fraction']:.3f}",
         )
     for name in ("mean_neighbour", "self_consistent", "parking"):
         column = f"contact_number_{name}"
@@ -60,7 +77,7 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
     return ax
 
 
-def plot_pairs(table, summary, radius_max, ax=None):
+def plot_pairs(table: Table, summary: Mapping, radius_max: float, ax: Axes | None = None) -> Axes:
     """Draw how often classes of radius touch, over what their contact numbers alone would give.
 
     Parameters
@@ -106,7 +123,7 @@ def plot_pairs(table, summary, radius_max, ax=None):
     return ax
 
 
-def plot_distances(table, ax=None):
+def plot_distances(table: Table, ax: Axes | None = None) -> Axes:
     """Draw how far each prediction of the branch lengths is off along the loading.
 
     Parameters
@@ -139,7 +156,7 @@ def plot_distances(table, ax=None):
     return ax
 
 
-def plot_mean_lengths(table, radius_max, ax=None):
+def plot_mean_lengths(table: Table, radius_max: float, ax: Axes | None = None) -> Axes:
     """Draw the mean branch length along the loading, measured and predicted.
 
     Parameters
@@ -177,25 +194,9 @@ def plot_mean_lengths(table, radius_max, ax=None):
     return ax
 
 
-def above_jamming(table):
-    """Return what to draw a path against, and its label: phi - phi_J, or phi where it is unknown.
-
-    Parameters
-    ----------
-    table : DataFrame
-        With columns solid_fraction and solid_fraction_above_jamming.
-
-    Returns
-    -------
-    Series, str
-    """
-    above = table["solid_fraction_above_jamming"]
-    if above.isna().any():
-        return table["solid_fraction"], r"solid fraction $\phi$ [-]"
-    return above, r"solid fraction above jamming $\phi - \phi_J$ [-]"
-
-
-def plot_branch_lengths(table, statistics, radius_max, ax=None):
+def plot_branch_lengths(
+    table: Table, statistics: Mapping, radius_max: float, ax: Axes | None = None
+) -> Axes:
     """Draw the measured distribution of branch lengths beside Eq. 4 (Fig. 7).
 
     Parameters

@@ -1,14 +1,18 @@
 """The certificate: how far every saved state is from its limits, and where each packing jams."""
 
-import numpy as np
+from collections.abc import Mapping
 
+import numpy as np
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
 
 _PHI = r"solid fraction $\phi$ [-]"
 _LOOSE = "no saved state carries load"
 
 
-def plot_rest(states, limits, ax=None):
+def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None) -> Axes:
     """Draw what tells whether the states are at rest, each with its limit.
 
     Parameters
@@ -42,7 +46,7 @@ def plot_rest(states, limits, ax=None):
     return ax
 
 
-def plot_overlaps(states, flag, ax=None):
+def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
     """Draw the overlaps over the smaller radius, with the value from which they are flagged.
 
     Parameters
@@ -75,7 +79,7 @@ def plot_overlaps(states, flag, ax=None):
     return ax
 
 
-def plot_dissipation(states, ax=None):
+def plot_dissipation(states: Table, ax: Axes | None = None) -> Axes:
     """Draw the share of the work that is dissipated, which never is negative.
 
     Parameters
@@ -102,7 +106,7 @@ def plot_dissipation(states, ax=None):
     return ax
 
 
-def plot_jamming(jamming, ax=None):
+def plot_jamming(jamming: Table, ax: Axes | None = None) -> Axes:
     """Draw the jamming point of every packing with its uncertainty, in and back.
 
     Parameters

@@ -1,16 +1,20 @@
 """Figures 5 and 6 of the paper, and the exponent along the loading path."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
+from branchcrush.files.tables import Table
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes
 from branchcrush.statistics.intervals import interval_text
 
 # Bins with fewer branches are marked with their count.
 THIN = 100
 
 
-def plot_energy_split(table, fit, ax=None):
+def plot_energy_split(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function and its fitted power law (Fig. 5).
 
     Parameters
@@ -50,7 +54,7 @@ def plot_energy_split(table, fit, ax=None):
     return ax
 
 
-def plot_cubic(table, fit, ax=None):
+def plot_cubic(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function against the cube of the length, with its R^2 (Fig. 6).
 
     Parameters
@@ -84,7 +88,7 @@ def plot_cubic(table, fit, ax=None):
     return ax
 
 
-def plot_exponent_path(path, fit, ax=None):
+def plot_exponent_path(path: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the exponent of the energy split along the loading path.
 
     Parameters
@@ -101,10 +105,7 @@ def plot_exponent_path(path, fit, ax=None):
     """
     ax = axes(ax)
     path = path[path["exponent"].notna()]
-    phi = path["solid_fraction_above_jamming"]
-    label = r"solid fraction above jamming $\phi - \phi_J$ [-]"
-    if phi.isna().any():
-        phi, label = path["solid_fraction"], r"solid fraction $\phi$ [-]"
+    phi, label = above_jamming(path)
     if path["exponent_low"].notna().all():
         ax.fill_between(
             phi,

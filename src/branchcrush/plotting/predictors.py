@@ -1,9 +1,12 @@
 """What the energy of a branch depends on: predictors judged on seeds left out."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import MEASURED, MODEL, OTHER, STATES, axes
 from branchcrush.statistics.intervals import LIMITS, interval_names
 
 # Of every predictor: what it is called, its colour and its marker.
@@ -16,7 +19,7 @@ PREDICTORS = {
 }
 
 
-def plot_predictors(fit, ax=None):
+def plot_predictors(fit: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the deviance that each predictor explains on seeds left out of its fit.
 
     Parameters
@@ -31,11 +34,9 @@ def plot_predictors(fit, ax=None):
     """
     ax = axes(ax)
     shown = 0
-    states = (("at the end", fit["predictors"], MEASURED, -0.12),)
-    states += (("near jamming", fit["near_jamming"]["predictors"], "#6f9bc4", 0.12),)
-    for label, predictors, color, shift in states:
-        known = [p for p in predictors if p.get("explained_deviance") is not None]
-        rows = [list(PREDICTORS).index(p["name"]) + shift for p in known]
+    for (label, color), state, side in _states(fit):
+        known = [p for p in state["predictors"] if p.get("explained_deviance") is not None]
+        rows = [list(PREDICTORS).index(p["name"]) - 0.12 * side for p in known]
         value, low, high = (
             np.array([p[name] for p in known], dtype=float)
             for name in interval_names("explained_deviance")
@@ -56,7 +57,7 @@ def plot_predictors(fit, ax=None):
     return ax
 
 
-def plot_slopes(fit, ax=None):
+def plot_slopes(fit: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the local exponents of the energy at short and at long branches.
 
     Parameters
@@ -71,9 +72,8 @@ def plot_slopes(fit, ax=None):
     """
     ax = axes(ax)
     places = ("slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
-    states = (("at the end", fit["curvature"], MEASURED, 0.05),)
-    states += (("near jamming", fit["near_jamming"]["curvature"], "#6f9bc4", -0.05),)
-    for label, bend, color, shift in states:
+    for (label, color), state, side in _states(fit):
+        bend = state["curvature"]
         if "reason" in bend:
             continue
         value, low, high = (
@@ -84,7 +84,7 @@ def plot_slopes(fit, ax=None):
         if np.isfinite(low).all():
             text += f" ({bend['curvature_low']:.2f} to {bend['curvature_high']:.2f})"
             error = [value - low, high - value]
-        ax.errorbar(np.arange(3) + shift, value, error, fmt="o-", color=color, label=text)
+        ax.errorbar(np.arange(3) + 0.05 * side, value, error, fmt="o-", color=color, label=text)
     ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set_xticks(range(3), ["shortest 10 %", "mean", "longest 10 %"])
     ax.set(
@@ -94,3 +94,11 @@ def plot_slopes(fit, ax=None):
     ax.set_ylim(low, high + 0.35 * (high - low))
     ax.legend(loc="upper left", title="c = 0 for a power law", title_fontsize=6.5)
     return ax
+
+
+def _states(fit: Mapping) -> list[tuple]:
+    """Return look, fit and side of the end, and of the state near jamming where there is one."""
+    states = [(STATES["end"], fit, 1)]
+    if "near_jamming" in fit:
+        states.append((STATES["near_jamming"], fit["near_jamming"], -1))
+    return states

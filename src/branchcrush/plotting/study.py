@@ -1,21 +1,25 @@
 """All samples of a study in one figure: a colour for each grading, a line for each boundary."""
 
+from collections.abc import Mapping
 from itertools import takewhile
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.plotting.branches import PREDICTIONS
 from branchcrush.plotting.predictors import PREDICTORS
 from branchcrush.plotting.style import FAINT, axes
 from branchcrush.study.findings import GOOD_DISTANCE
+from branchcrush.study.kinds import SampleKind
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
 
 
-def sample_styles(samples):
+def sample_styles(samples: Mapping[str, SampleKind]) -> dict[str, dict]:
     """Return how each sample is drawn: one colour a grading, dashed between walls, open for Hertz.
 
     Parameters
@@ -50,7 +54,9 @@ def sample_styles(samples):
     return styles
 
 
-def plot_exponents(paths, styles, law, ax=None):
+def plot_exponents(
+    paths: Mapping[str, Table], styles: Mapping[str, Mapping], law: str, ax: Axes | None = None
+) -> Axes:
     """Draw the exponent against the distance from jamming, of all samples of one contact law.
 
     Parameters
@@ -95,7 +101,7 @@ def plot_exponents(paths, styles, law, ax=None):
     return ax
 
 
-def plot_samples(rows, kind, ax=None):
+def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:
     """Draw one number of every prediction, a row a sample.
 
     Parameters
@@ -134,7 +140,7 @@ def plot_samples(rows, kind, ax=None):
     return ax
 
 
-def legend_handles(styles, lines=False):
+def legend_handles(styles: Mapping[str, Mapping], lines: bool = False) -> list[Line2D]:
     """Return what a legend shows: a colour for each grading, and the boundaries where they vary.
 
     Parameters

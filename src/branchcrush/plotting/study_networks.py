@@ -1,13 +1,17 @@
 """The contact networks of all samples of a study: coordination, shielding, stress and forces."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from branchcrush.branches.coordination_laws import field, gray, jamming_law, smith
+from branchcrush.files.tables import Table
 from branchcrush.plotting.study import legend_handles
 from branchcrush.plotting.style import FAINT, MODEL, axes
 
 
-def plot_coordination(states, styles, ax=None):
+def plot_coordination(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:
     """Draw the coordination numbers of all states against void ratio, with historic relations.
 
     Parameters
@@ -49,7 +53,7 @@ def plot_coordination(states, styles, ax=None):
     return ax
 
 
-def plot_jamming_law(states, styles, ax=None):
+def plot_jamming_law(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:
     """Draw the mechanical coordination number against the distance from jamming, with the law.
 
     Parameters
@@ -88,7 +92,9 @@ def plot_jamming_law(states, styles, ax=None):
     return ax
 
 
-def plot_branch_shielding(tables, styles, ax=None):
+def plot_branch_shielding(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the energy of branches of equal length against the ratio of their radii, at the end.
 
     Parameters
@@ -116,7 +122,9 @@ def plot_branch_shielding(tables, styles, ax=None):
     return ax
 
 
-def plot_grain_shielding(tables, styles, ax=None):
+def plot_grain_shielding(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the energy per contact of grains against their radius over their neighbours'.
 
     Parameters
@@ -146,7 +154,9 @@ def plot_grain_shielding(tables, styles, ax=None):
     return ax
 
 
-def plot_stress(tables, styles, ax=None):
+def plot_stress(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw how far the cumulative stress is from the cumulative volume, finest grains first.
 
     Parameters
@@ -181,7 +191,9 @@ def plot_stress(tables, styles, ax=None):
     return ax
 
 
-def plot_forces(tables, styles, ax=None):
+def plot_forces(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the distribution of forces of all samples at the end of the loading.
 
     Parameters
