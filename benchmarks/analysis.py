@@ -21,7 +21,7 @@ SAMPLES = {
     "many_seeds": {"seeds": 16, "grains": 25_000, "states": 10, "contacts": 10_000_000},
     "large_packing": {"seeds": 1, "grains": 1_000_000, "states": 3, "contacts": 10_000_000},
 }
-LIMITS = {"seconds": 30.0, "peak_memory_MB": 4000.0}
+LIMITS = {"cpu_seconds": 25.0, "peak_memory_MB": 2000.0}
 
 
 def run(samples=SAMPLES, resamples=1000, folder=None):

@@ -4,7 +4,6 @@ Paths are relative to the working directory. A step imports what it needs itself
 charged for its own imports only.
 """
 
-import gzip
 import json
 import runpy
 import sys
@@ -96,29 +95,27 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     fractions = [0.16, 0.55, *np.linspace(_FIRST_LOADED, _LAST, states)]
     exponents = [0.0, 0.0, *np.linspace(*_EXPONENTS, states)]
     path, tables = [], []
-    with gzip.open(folder / "pairs.dump.gz", "wb", compresslevel=1) as dump:
-        for state, (phi, exponent) in enumerate(zip(fractions, exponents, strict=True)):
-            pairs = _pairs(radii, contacts if state > 1 else 0, phi, exponent, 2 * high, law, rng)
-            _write_frame(dump, pairs)
-            touching = state_contacts(pairs, radii, law)
-            edge = cube_edge(radii, phi)
-            scalars = dict.fromkeys(("kinetic_energy", "escaped", "lost"), 0.0)
-            scalars |= {"state": state, "edge": edge, "evaluations": 1000 * state}
-            # Of a periodic cell at rest: its pressure is the stress of the branches.
-            force = touching["branch_length_m"] @ touching["normal_force_N"]
-            scalars |= {"pair_pressure": force / (3 * edge**3)}
-            scalars |= {"work": 1.01 * touching["energy_J"].sum()}
-            row = path_row(
-                scalars,
-                particles,
-                touching,
-                wall_contacts(particles, edge),
-                first_edge=cube_edge(radii, fractions[0]),
-                law=law,
-                periodic=True,
-            )
-            path.append({**row, "leg": "loading", "stopped": ""})
-            tables.append(pd.DataFrame({"state": state, **touching}))
+    for state, (phi, exponent) in enumerate(zip(fractions, exponents, strict=True)):
+        pairs = _pairs(radii, contacts if state > 1 else 0, phi, exponent, 2 * high, law, rng)
+        touching = state_contacts(pairs, radii, law)
+        edge = cube_edge(radii, phi)
+        scalars = dict.fromkeys(("kinetic_energy", "escaped", "lost"), 0.0)
+        scalars |= {"state": state, "edge": edge, "evaluations": 1000 * state}
+        # Of a periodic cell at rest: its pressure is the stress of the branches.
+        force = touching["branch_length_m"] @ touching["normal_force_N"]
+        scalars |= {"pair_pressure": force / (3 * edge**3)}
+        scalars |= {"work": 1.01 * touching["energy_J"].sum()}
+        row = path_row(
+            scalars,
+            particles,
+            touching,
+            wall_contacts(particles, edge),
+            first_edge=cube_edge(radii, fractions[0]),
+            law=law,
+            periodic=True,
+        )
+        path.append({**row, "leg": "loading", "stopped": ""})
+        tables.append(pd.DataFrame({"state": state, **touching}))
     write_table(folder / "contacts.parquet", pd.concat(tables, ignore_index=True), origin)
     names = ("state", "i", "wall", "overlap_m", "normal_force_N")
     write_table(folder / "wall_contacts.parquet", {name: np.empty(0) for name in names}, origin)
@@ -130,17 +127,6 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     write_table(folder / "steps.csv", steps, origin)
     last = tables[-1]
     return 1.0 / (np.log(last["radius_i_m"] + last["radius_j_m"]).std() * np.sqrt(len(last)))
-
-
-def _write_frame(dump, pairs):
-    """Write a state of a pair dump as LAMMPS does."""
-    import pyarrow as pa
-    from pyarrow import csv
-
-    head = f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF BONDS\n{len(pairs)}\nITEM: BOX BOUNDS ff ff ff\n"
-    dump.write((head + "0 1\n" * 3 + f"ITEM: BONDS {' '.join(pairs)}\n").encode())
-    options = csv.WriteOptions(include_header=False, delimiter=" ")
-    csv.write_csv(pa.Table.from_pandas(pairs, preserve_index=False), dump, options)
 
 
 def _pairs(radii, contacts, phi, exponent, longest, law, rng):
@@ -162,7 +148,7 @@ def _pairs(radii, contacts, phi, exponent, longest, law, rng):
     z, turn = rng.uniform(-1.0, 1.0, contacts), rng.uniform(0.0, 2.0 * np.pi, contacts)
     flat = np.sqrt(1.0 - z**2)
     for axis, part in (("x", flat * np.cos(turn)), ("y", flat * np.sin(turn)), ("z", z)):
-        columns |= {f"branch_{axis}": branch * part, f"force_{axis}": force * part}
+        columns[f"branch_{axis}"] = branch * part
     return pd.DataFrame(columns).astype(float)
 
 
@@ -227,11 +213,10 @@ def _rules(runs, settings, study, resamples):
             "numbers": f"results/{name}/contact_numbers.csv",
             "pairs": f"results/{name}/contact_pairs.csv",
             "coordination": f"results/{name}/coordination.csv",
-            "touching": f"results/{name}/contact_numbers.json",
+            "contact_numbers": f"results/{name}/contact_numbers.json",
         },
         "params": {"sample": settings, "bins": bins, "intervals": intervals},
     }
-    pairs = {"pairs": files(name, "pairs.dump.gz", seeds)}
     tables = (
         "shielding_branches",
         "shielding_grains",
@@ -242,7 +227,7 @@ def _rules(runs, settings, study, resamples):
         "stress_sharing",
     )
     jobs["sharing"] = {
-        "input": {**packings, **paths, **contacts, **walls, **pairs, **certified},
+        "input": {**packings, **paths, **contacts, **walls, **certified},
         "output": {
             "summary": f"results/{name}/sharing.json",
             **{table: f"results/{name}/{table}.csv" for table in tables},

@@ -19,7 +19,7 @@ rule branch_lengths:
         numbers="results/{sample}/contact_numbers.csv",
         pairs="results/{sample}/contact_pairs.csv",
         coordination="results/{sample}/coordination.csv",
-        touching="results/{sample}/contact_numbers.json",
+        contact_numbers="results/{sample}/contact_numbers.json",
     log:
         "logs/{sample}/branch_lengths.log",
     conda:

@@ -8,7 +8,7 @@ from branchcrush.jobs import job
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.packings.network import state_networks
 from branchcrush.samples.branch_lengths import sample_classes
-from branchcrush.samples.ensemble import certified_loading
+from branchcrush.samples.ensemble import certified_loading, named_states
 from branchcrush.samples.sharing import TABLES, both_states, shared_in_state
 from branchcrush.statistics.bins import bin_edges
 
@@ -21,7 +21,8 @@ with job(snakemake.log[0]):
         used, paths = certified_loading(
             read_table(files.certificate), [read_table(path) for path in files.paths]
         )
-        states = [int(paths[0]["state"].iloc[row]) for row in (0, -1)]
+        names = named_states(paths[0])
+        states = [int(paths[0]["state"].iloc[row]) for row in names.values()]
         networks = []
         for number in used:
             packing = read_contacts(files, number, vectors=True)
@@ -36,7 +37,7 @@ with job(snakemake.log[0]):
                 exponent,
                 **params.intervals,
             )
-            for where, state in zip(("near_jamming", "end"), states, strict=True)
+            for where, state in zip(names, states, strict=True)
         }
         tables, summary = both_states(found)
     except FitError as error:

@@ -1,0 +1,28 @@
+"""All seeds of a sample together: what the rules of the workflow compute.
+
+One module a rule, with one function that its script calls: tables in, tables out. A function that
+needs the contacts of many seeds is given what reads those of one, and holds no two at a time.
+
+`ensemble`
+    Which seeds and states a fit may use (`certified_loading`), and which of them have a name
+    (`named_states`).
+`certificate`, `verdict`
+    Measures and certificate of every saved state, the jamming points; convergence (`convergence`),
+    the way back (`unloading`) and the verdict of the sample.
+`seed_contacts`
+    What is kept of the contacts of one seed for the results of who touches whom.
+`branch_lengths`, `contact_numbers`
+    Branch lengths beside their predictions, and contact numbers by radius.
+`energy_split`
+    The energy split function and its exponent, at the end and along the loading.
+`sharing`
+    How energy, force and stress are shared by grains and branches.
+`thermodynamics`
+    The crushing model on the elastic energy that was measured.
+`grading`
+    The grading that the seeds realise, beside the target.
+
+A new result of a sample is a function here that takes tables and returns tables, with a rule in
+`workflow/rules` and a script of a few lines. This room may hold tables of pandas, and reads no
+files: the scripts do.
+"""

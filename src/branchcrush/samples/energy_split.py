@@ -12,7 +12,7 @@ from branchcrush.energy.predictors import branch_columns, compared_predictors, c
 from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
 from branchcrush.packings.network import state_rows
-from branchcrush.samples.ensemble import mean_path
+from branchcrush.samples.ensemble import mean_path, named_states
 from branchcrush.statistics.bins import binned_sums
 from branchcrush.statistics.intervals import Interval, Resampling
 from branchcrush.statistics.power_law import binned_exponent
@@ -100,7 +100,8 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     fit : dict
         exponent with its interval, the exponent of each seed alone, the paper's cubic; fits to all
         branches at once: `predictors`, the first of them the branch length, with its exponent, and
-        `curvature`, each at the end and in the first loaded state (`near_jamming`).
+        `curvature`, each at the end and, where there is more than one state, in the first loaded
+        one (`near_jamming`).
 
     Raises
     ------
@@ -126,13 +127,14 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
         "cubic_r_squared": r_squared,
         "predictors": _predictors([seed.last for seed in branches], confidence, resamples),
         "curvature": _curvature([seed.last for seed in branches], confidence, resamples),
-        "near_jamming": {
+    }
+    if "near_jamming" in named_states(paths[0]):
+        fit["near_jamming"] = {
             "state": int(paths[0]["state"].iloc[0]),
             "solid_fraction": _mean(path["solid_fraction"].iloc[0] for path in paths),
             "predictors": _predictors([seed.first for seed in branches], confidence, resamples),
             "curvature": _curvature([seed.first for seed in branches], confidence, resamples),
-        },
-    }
+        }
     return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
 
 

@@ -104,6 +104,32 @@ def on_the_way_in(paths, used):
     return [path[path["leg"] == "loading"].reset_index(drop=True) for path in loading]
 
 
+def named_states(path):
+    """Return which states the summaries tell of by a name: the first that all carry, and the last.
+
+    Where the seeds share one state it is the end, and nothing is called near jamming.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `certified_loading`, of any seed, or from `mean_path`.
+
+    Returns
+    -------
+    dict of int
+        Rows of the path, under near_jamming and end, or under end alone.
+
+    Examples
+    --------
+    >>> named_states(pd.DataFrame({"state": [3, 4, 5]}))
+    {'near_jamming': 0, 'end': 2}
+    >>> named_states(pd.DataFrame({"state": [5]}))
+    {'end': 0}
+    """
+    end = {"end": len(path) - 1}
+    return end if len(path) == 1 else {"near_jamming": 0, **end}
+
+
 def mean_path(paths, jamming):
     """Return the states that the seeds share, with their means over the seeds.
 

@@ -247,6 +247,13 @@ def test_one_seed_gives_a_fit_without_an_interval():
     assert np.isnan([fit["exponent_low"], fit["exponent_high"]]).all()
 
 
+def test_one_state_is_the_end_and_not_near_jamming(contacts):
+    _, fit = final_energy_split(branches_of(contacts, 2), [path_of(2)] * 3, EDGES, **SETTINGS)
+    assert "near_jamming" not in fit
+    _, fit = final_energy_split(branches_of(contacts, 1, 2), [path_of(1, 2)] * 3, EDGES, **SETTINGS)
+    assert fit["near_jamming"]["state"] == 1
+
+
 def test_same_tables_give_the_same_result():
     branches = branches_of([contacts_of(seed, [2.8 + 0.1 * seed]) for seed in range(4)], 0)
     paths = [path_of(0)] * 4
