@@ -14,7 +14,9 @@ from branchcrush.plotting.style import (
     STATES,
     above_jamming,
     axes,
+    draw_band,
     reason,
+    widen,
 )
 
 # Of every prediction: what it is called, its colour and its marker.
@@ -153,7 +155,7 @@ def plot_distances(table: Table, ax: Axes | None = None) -> Axes:
     low, high = ax.get_ylim()
     ax.set_ylim(low, high * (high / low) ** 0.9)
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
 def plot_mean_lengths(table: Table, radius_max: float, ax: Axes | None = None) -> Axes:
@@ -180,9 +182,9 @@ def plot_mean_lengths(table: Table, radius_max: float, ax: Axes | None = None) -
             mean = measured["measured_mean_length_m"] / radius_max
             ax.plot(x[rows], mean, "o-", color=color, label="measured")
             limits = (measured[f"measured_mean_length_{part}_m"] for part in ("low", "high"))
-            ax.fill_between(
-                x[rows], *(limit / radius_max for limit in limits), color=color, alpha=0.2, lw=0
-            )
+            low, high = (limit / radius_max for limit in limits)
+            interval = {"length": mean, "length_low": low, "length_high": high}
+            draw_band(ax, x[rows], interval, "length", color)
         elif rows.any():
             mean = table.loc[rows, "mean_length_m"].iloc[0] / radius_max
             ax.axhline(mean, color=color, lw=1.0, ls="--")
@@ -191,7 +193,7 @@ def plot_mean_lengths(table: Table, radius_max: float, ax: Axes | None = None) -
     ax.set_ylim(low, high + 0.25 * (high - low))
     ax.plot([], [], "--", color=FAINT, label="predicted, in the colours of the distances")
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
 def plot_branch_lengths(

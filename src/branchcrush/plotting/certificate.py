@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason, widen
 
 _PHI = r"solid fraction $\phi$ [-]"
 _LOOSE = "no saved state carries load"
@@ -43,7 +43,7 @@ def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None
     low, high = ax.get_ylim()
     ax.set_ylim(low, 1e4 * high)
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
 def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
@@ -76,7 +76,7 @@ def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
     low, high = ax.get_ylim()
     ax.set_ylim(low, 30 * high)
     ax.legend(loc="upper left", ncols=2)
-    return ax
+    return widen(ax)
 
 
 def plot_dissipation(states: Table, ax: Axes | None = None) -> Axes:
@@ -103,7 +103,7 @@ def plot_dissipation(states: Table, ax: Axes | None = None) -> Axes:
             ax.plot(part["solid_fraction"], share, ".", color=color, ms=3, label=leg)
     ax.set(xlabel=_PHI, ylabel="work dissipated so far [%]", ylim=(0, None))
     ax.legend(loc="best")
-    return ax
+    return widen(ax)
 
 
 def plot_jamming(jamming: Table, ax: Axes | None = None) -> Axes:

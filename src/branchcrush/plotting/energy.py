@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes, draw_band, widen
 from branchcrush.statistics.intervals import interval_text
 
 # Bins with fewer branches are marked with their count.
@@ -107,15 +107,8 @@ def plot_exponent_path(path: Table, fit: Mapping, ax: Axes | None = None) -> Axe
     path = path[path["exponent"].notna()]
     phi, label = above_jamming(path)
     if path["exponent_low"].notna().all():
-        ax.fill_between(
-            phi,
-            path["exponent_low"],
-            path["exponent_high"],
-            color=MEASURED,
-            alpha=0.2,
-            lw=0,
-            label=f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds",
-        )
+        label_of_band = f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds"
+        draw_band(ax, phi, path, "exponent", MEASURED, label_of_band)
     ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
     ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set(xlabel=label, ylabel="exponent n [-]")
@@ -127,7 +120,7 @@ def plot_exponent_path(path: Table, fit: Mapping, ax: Axes | None = None) -> Axe
     floor, ceiling = ax.get_ylim()
     ax.set_ylim(max(floor, low - 2.0), min(ceiling, high + 2.0))
     top = ax.twiny()
-    top.set_xlim(ax.get_xlim())
+    top.set_xlim(widen(ax).get_xlim())
     shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
     top.set_xticks(phi.iloc[shown], [f"{v:.3g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
     top.set_xlabel("mean stress [MPa]")

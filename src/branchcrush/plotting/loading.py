@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, widen
 
 
 def plot_mean_stress(path: Table, ax: Axes | None = None) -> Axes:
@@ -93,7 +93,7 @@ def plot_coordination(path: Table, ax: Axes | None = None) -> Axes:
     share.spines["right"].set_visible(True)
     ax.plot([], [], "s--", color=OTHER, label="rattlers (right)")
     ax.legend(loc="best")
-    return ax
+    return widen(ax)
 
 
 def plot_elastic_law(path: Table, summary: Mapping, ax: Axes | None = None) -> Axes:

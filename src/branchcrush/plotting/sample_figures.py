@@ -111,7 +111,7 @@ def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Fi
         loading.plot_mean_stress(states, panels[0, 0])
         loading.plot_energy_balance(states, panels[0, 1])
         loading.plot_coordination(states, panels[1, 0])
-        drawn(loading.plot_elastic_law, model, states, model, ax=panels[1, 1])
+        drawn(loading.plot_elastic_law, model.get("reason"), states, model, ax=panels[1, 1])
     return panels[0, 0].figure
 
 
@@ -133,14 +133,14 @@ def draw_certificate(
 def draw_energy_split(path: Path, dpi: int, table: Table, fit: Mapping) -> Figure:
     """Draw Fig. 5 from `energy_split.csv` and `energy_split.json`, and return it."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_energy_split, fit, table, fit, ax=ax)
+        drawn(energy.plot_energy_split, fit.get("reason"), table, fit, ax=ax)
     return ax.figure
 
 
 def draw_cubic(path: Path, dpi: int, table: Table, fit: Mapping) -> Figure:
     """Draw Fig. 6 from `energy_split.csv` and `energy_split.json`, and return it."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_cubic, fit, table, fit, ax=ax)
+        drawn(energy.plot_cubic, fit.get("reason"), table, fit, ax=ax)
     return ax.figure
 
 
@@ -149,22 +149,29 @@ def draw_branch_lengths(
 ) -> Figure:
     """Draw Fig. 7 from `branch_lengths.csv` and `branch_lengths.json`, over R_M [m]."""
     with figure(path, dpi) as ax:
-        drawn(branches.plot_branch_lengths, statistics, table, statistics, radius_max, ax=ax)
+        drawn(
+            branches.plot_branch_lengths,
+            statistics.get("reason"),
+            table,
+            statistics,
+            radius_max,
+            ax=ax,
+        )
     return ax.figure
 
 
 def draw_exponent_path(path: Path, dpi: int, states: Table, fit: Mapping) -> Figure:
     """Draw n along the loading from `energy_split_path.csv` and `energy_split.json`."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_exponent_path, fit, states, fit, ax=ax)
+        drawn(energy.plot_exponent_path, fit.get("reason"), states, fit, ax=ax)
     return ax.figure
 
 
 def draw_predictors(path: Path, dpi: int, fit: Mapping) -> Figure:
     """Draw what predicts the energies, and their local exponents, from `energy_split.json`."""
     with figure(path, dpi, *grid(1, 2)) as panels:
-        drawn(predictors.plot_predictors, fit, fit, ax=panels[0])
-        drawn(predictors.plot_slopes, fit, fit, ax=panels[1])
+        drawn(predictors.plot_predictors, fit.get("reason"), fit, ax=panels[0])
+        drawn(predictors.plot_slopes, fit.get("reason"), fit, ax=panels[1])
     return panels[0].figure
 
 
@@ -180,7 +187,7 @@ def draw_crushing_model(path: Path, dpi: int, curves: Table, model: Mapping) -> 
             (panels[2, 0], crushing.plot_driving_force, curves),
             (panels[2, 1], crushing.plot_dissipation, curves),
         ):
-            drawn(plot, model, *data, ax=ax)
+            drawn(plot, model.get("reason"), *data, ax=ax)
     return panels[0, 0].figure
 
 
@@ -216,8 +223,8 @@ def draw_who_touches_whom(
             (panels[0, 1], branches.plot_pairs, tables["contact_pairs"], numbers),
             (panels[1, 1], branches.plot_mean_lengths, lengths),
         ):
-            drawn(plot, numbers, *data, radius_max, ax=ax)
-        drawn(branches.plot_distances, numbers, lengths, ax=panels[1, 0])
+            drawn(plot, numbers.get("reason"), *data, radius_max, ax=ax)
+        drawn(branches.plot_distances, numbers.get("reason"), lengths, ax=panels[1, 0])
     return panels[0, 0].figure
 
 
@@ -242,19 +249,20 @@ def draw_sharing(
     -------
     Figure
     """
-    by_branch = shared if "reason" in shared else shared["end"]["shielding"]["branches"]
+    why = shared.get("reason")
+    by_branch = why or shared["end"]["shielding"]["branches"].get("reason")
     with figure(path, dpi, *grid(4, 2)) as panels:
         panels.flat[-1].set_axis_off()
         for ax, (name, plot, result, *data) in zip(
             panels.flat[:-1],
             (
                 ("shielding_branches", shielding.plot_branch_shielding, by_branch, shared),
-                ("shielding_grains", shielding.plot_grain_shielding, shared),
-                ("force_distribution", forces.plot_force_distribution, shared, shared),
-                ("force_by_length", forces.plot_force_by_length, shared, shared, radius_max),
-                ("stress_by_radius", forces.plot_stress_by_radius, shared, radius_max),
-                ("stress_sharing", forces.plot_stress_sharing, shared, shared),
-                ("fabric", forces.plot_fabric, shared, shared),
+                ("shielding_grains", shielding.plot_grain_shielding, why),
+                ("force_distribution", forces.plot_force_distribution, why, shared),
+                ("force_by_length", forces.plot_force_by_length, why, shared, radius_max),
+                ("stress_by_radius", forces.plot_stress_by_radius, why, radius_max),
+                ("stress_sharing", forces.plot_stress_sharing, why, shared),
+                ("fabric", forces.plot_fabric, why, shared),
             ),
             strict=True,
         ):

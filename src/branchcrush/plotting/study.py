@@ -12,7 +12,7 @@ from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.plotting.branches import PREDICTIONS
 from branchcrush.plotting.predictors import PREDICTORS
-from branchcrush.plotting.style import FAINT, axes
+from branchcrush.plotting.style import FAINT, axes, draw_band, widen
 from branchcrush.study.findings import GOOD_DISTANCE
 from branchcrush.study.kinds import SampleKind
 
@@ -80,12 +80,14 @@ def plot_exponents(
         if style["law"] != law:
             continue
         # Where hardly a contact is, the interval says nothing and would hide the others.
-        path = path[(path["exponent_high"] - path["exponent_low"]).fillna(0.0) < 2.0]
+        if len(path) > 1:
+            path = path[(path["exponent_high"] - path["exponent_low"]).fillna(0.0) < 2.0]
         x = path["solid_fraction_above_jamming"]
         top = max(top, path["exponent"].max())
-        ax.plot(x, path["exponent"], style["line"], color=style["color"])
-        low, high = path["exponent_low"], path["exponent_high"]
-        ax.fill_between(x, low, high, color=style["color"], alpha=0.12, lw=0)
+        # One state is a point, and its interval a bar.
+        line = style["line"] if len(path) > 1 else "o"
+        ax.plot(x, path["exponent"], line, color=style["color"])
+        draw_band(ax, x, path, "exponent", style["color"], alpha=0.12)
     ax.axhline(PAPER_EXPONENT, color="black", ls=":", lw=1.0)
     ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
     ax.set(title=CONTACT_LAWS[law].label, ylim=(0, 1.45 * top))
@@ -98,7 +100,7 @@ def plot_exponents(
         handlelength=1.5,
         columnspacing=1.0,
     )
-    return ax
+    return widen(ax)
 
 
 def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:

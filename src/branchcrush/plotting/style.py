@@ -23,6 +23,8 @@ MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"
 STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEASURED)}
 # One column of a journal page [inch].
 SIZE = (3.5, 2.7)
+# Solid fractions are drawn on an axis that is at least so wide [-].
+LEAST_SPREAD = 0.02
 
 _STYLE = {
     "font.size": 8,
@@ -97,15 +99,15 @@ def figure(
         plt.close(drawing)
 
 
-def drawn(plot: Callable[..., Axes], result: Mapping, *data: Any, ax: Axes) -> Axes:
-    """Draw a result on an Axes, or write there why there is none, and return it.
+def drawn(plot: Callable[..., Axes], why: str | None, *data: Any, ax: Axes) -> Axes:
+    """Draw data on an Axes, or write there why there are none, and return it.
 
     Parameters
     ----------
     plot : callable
         Takes the data and `ax`.
-    result : dict
-        With a key `reason` where there is nothing to draw.
+    why : str or None
+        The reason of a result without data.
     *data
         For the plot.
     ax : Axes
@@ -116,10 +118,10 @@ def drawn(plot: Callable[..., Axes], result: Mapping, *data: Any, ax: Axes) -> A
 
     Examples
     --------
-    >>> drawn(len, {"reason": "no load"}, ax=axes()).texts[0].get_text()
+    >>> drawn(len, "no load", ax=axes()).texts[0].get_text()
     'no data: no load'
     """
-    return reason(ax, result["reason"]) if "reason" in result else plot(*data, ax=ax)
+    return plot(*data, ax=ax) if why is None else reason(ax, why)
 
 
 def reason(ax: Axes, text: str) -> Axes:
@@ -128,6 +130,74 @@ def reason(ax: Axes, text: str) -> Axes:
     ax.text(0.5, 0.5, lines, ha="center", va="center", transform=ax.transAxes, fontsize=7)
     ax.set_axis_off()
     return ax
+
+
+def widen(ax: Axes, least: float = LEAST_SPREAD) -> Axes:
+    """Widen the horizontal axis about its middle to a least width, and return the Axes.
+
+    Of one state, or of packings that differ by rounding, an axis would show the last digits.
+
+    Parameters
+    ----------
+    ax : Axes
+    least : float
+        In units of the axis; by default for solid fractions [-].
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> ax = axes()
+    >>> _ = ax.plot([0.71, 0.71 + 1e-9], [1.0, 2.0])
+    >>> [float(round(end, 6)) for end in widen(ax, 0.02).get_xlim()]
+    [0.7, 0.72]
+    """
+    low, high = ax.get_xlim()
+    if high - low < least:
+        middle = (low + high) / 2.0
+        ax.set_xlim(middle - least / 2.0, middle + least / 2.0)
+    return ax
+
+
+def draw_band(
+    ax: Axes,
+    x: ArrayLike,
+    rows: Mapping,
+    column: str,
+    color: str,
+    label: str | None = None,
+    alpha: float = 0.2,
+) -> None:
+    """Draw the interval of an estimate along a path: a band, or a bar where there is one state.
+
+    Parameters
+    ----------
+    ax : Axes
+    x : array_like, shape (n,)
+    rows : DataFrame or mapping of columns, n rows
+    column : str
+        Of the estimate; its limits are the columns that `statistics.intervals.interval_names`
+        says.
+    color, label : str
+    alpha : float
+        Opacity of the band.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> ax, rows = axes(), pd.DataFrame({"n": [3.0], "n_low": [2.5], "n_high": [3.5]})
+    >>> draw_band(ax, [0.1], rows, "n", "black")
+    >>> [bar.get_segments()[0][:, 1].tolist() for bar in ax.containers[0][2]]
+    [[2.5, 3.5]]
+    """
+    y, low, high = (np.asarray(rows[name], dtype=float) for name in interval_names(column))
+    if y.size == 1:
+        bars = np.array([y - low, high - y]).clip(0.0)
+        ax.errorbar(x, y, bars, fmt="none", ecolor=color, lw=0.8, label=label)
+    else:
+        ax.fill_between(x, low, high, color=color, alpha=alpha, lw=0, label=label)
 
 
 def of_states(table: Table) -> Iterator[tuple[str, Table]]:
