@@ -1,6 +1,7 @@
 """Fit the energy-split function at the end of the loading, and its exponent along it."""
 
 from branchcrush.config.build import grading_of
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data, provenance, read_table, write_json, write_table
 from branchcrush.jobs import job
@@ -19,7 +20,7 @@ with job(snakemake.log[0]):
     settings = dict(snakemake.params.energy_split)
     edges = bin_edges(*grading_of(sample["grading"]).support(), settings.pop("bins"))
     paths = [read_table(path) for path in files.paths]
-    known = {}
+    known = None
     try:
         used, paths = certified_loading(read_table(files.certificate), paths)
         branches = [
@@ -31,8 +32,8 @@ with job(snakemake.log[0]):
         table, fit = final_energy_split(branches, paths, edges, jamming, **settings)
         along = exponents_along_path(branches, paths, jamming, **settings)
     except FitError as error:
-        table, fit = no_data(error)
-        along, fit = table, {**known, **fit}
+        table, _ = no_data(error)
+        along, fit = table, EnergySplitFit.without(str(error), known).result()
     origin = provenance(
         sample=snakemake.wildcards.sample,
         seeds=sample["seeds"],

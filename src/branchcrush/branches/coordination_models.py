@@ -4,6 +4,8 @@ Each model gives c(R), the mean number of contacts with other grains over **all*
 radius, rattlers included, at the jamming point. None has a number fitted to a packing.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -251,10 +253,44 @@ def _binomial(trials, number, chance):
     return np.where(number <= trials, binom(trials, number) * np.exp(logs), 0.0)
 
 
+@dataclass(frozen=True)
+class CoordinationModel:
+    """A model of contact numbers, and how figures show it.
+
+    Parameters
+    ----------
+    contacts : callable
+        Takes radii and their shares of the number of grains, shape (K,); returns `Coordination`,
+        or raises `FitError` where the model does not hold.
+    label : str
+        What figures call it.
+    color, marker : str
+    """
+
+    contacts: Callable[[np.ndarray, np.ndarray], Coordination]
+    label: str
+    color: str
+    marker: str
+
+
 # Each with the name that tables give it.
 MODELS = {
-    "mean_neighbour": mean_neighbour_contacts,
-    "surface": surface_contacts,
-    "self_consistent": self_consistent_contacts,
-    "parking": parking_contacts,
+    "mean_neighbour": CoordinationModel(
+        mean_neighbour_contacts,
+        label="solid angle, mean neighbour",
+        color="#c99a1a",
+        marker="^",
+    ),
+    "surface": CoordinationModel(
+        surface_contacts, label="Bouvard-Lange", color="#9aa5b1", marker="v"
+    ),
+    "self_consistent": CoordinationModel(
+        self_consistent_contacts,
+        label="self-consistent, rattler cut",
+        color="#8a5aa5",
+        marker="D",
+    ),
+    "parking": CoordinationModel(
+        parking_contacts, label="random parking", color="#3a7d44", marker="o"
+    ),
 }

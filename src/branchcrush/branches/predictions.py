@@ -21,6 +21,23 @@ _BINS = 997
 _MODE_WINDOW = 0.1
 
 
+class Look(NamedTuple):
+    """How figures show a prediction."""
+
+    label: str
+    color: str
+    marker: str
+
+
+# All that branch lengths are compared with, in the order of figures. Two are no models of contact
+# numbers: Eq. 4 needs none, and the last takes those that were measured.
+PREDICTIONS = {
+    "random_contact": Look("Eq. 4, any two alike", "#c1440e", "s"),
+    **{name: Look(model.label, model.color, model.marker) for name, model in MODELS.items()},
+    "configuration": Look("measured contact numbers", "#1f4e79", "P"),
+}
+
+
 class Prediction(NamedTuple):
     """What a model says of a grading."""
 
@@ -160,7 +177,7 @@ def predictions(grading, edges):
     radius, share = grading_nodes(grading)
     for name, model in MODELS.items():
         try:
-            contacts, bearing = model(radius, share)
+            contacts, bearing = model.contacts(radius, share)
         except FitError:
             continue
         shares = pair_shares(radius, share * contacts, edges)

@@ -4,10 +4,12 @@ Every predictor gives the mean energy of a branch from its two radii. Each is fi
 of some seeds and then asked about the branches of the others.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
+from branchcrush.energy.fit import Curvature, FittedPredictor
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
 from branchcrush.statistics.intervals import Resampling, pooled_interval
@@ -19,12 +21,28 @@ _RESIDUE = 1e-8
 _FOLDS = 4
 
 
-class Predictor(NamedTuple):
-    """A mean energy as a function of two radii, in logarithms of R/R_max."""
+@dataclass(frozen=True)
+class Predictor:
+    """A mean energy as a function of two radii, in logarithms of R/R_max, and how it is drawn.
+
+    Parameters
+    ----------
+    formula : str
+    names : tuple of str
+        Of the parameters after the scale.
+    design : callable
+        As `statistics.gamma_regression.gamma_fit` takes it.
+    label : str
+        What figures call it.
+    color, marker : str
+    """
 
     formula: str
-    names: tuple[str, ...]  # of the parameters after the scale
-    design: object  # as `statistics.gamma_regression.gamma_fit` takes it
+    names: tuple[str, ...]
+    design: Callable
+    label: str
+    color: str
+    marker: str
 
 
 def _linear(columns, start):
@@ -58,19 +76,44 @@ def _grain_sizes(theta, small=None, large=None):
 
 PREDICTORS = {
     "branch_length": Predictor(
-        "A l^n", ("exponent",), _linear(lambda s, g: [log_length(s, g)], [3.0])
+        "A l^n",
+        ("exponent",),
+        _linear(lambda s, g: [log_length(s, g)], [3.0]),
+        label="branch length l",
+        color="#1f4e79",
+        marker="o",
     ),
     "reduced_radius": Predictor(
-        "A (r1 r2/(r1 + r2))^n", ("exponent",), _linear(lambda s, g: [_log_reduced(s, g)], [2.0])
+        "A (r1 r2/(r1 + r2))^n",
+        ("exponent",),
+        _linear(lambda s, g: [_log_reduced(s, g)], [2.0]),
+        label="reduced radius R*",
+        color="#3a7d44",
+        marker="D",
     ),
     "both_radii": Predictor(
-        "A r_min^a r_max^b", ("a", "b"), _linear(lambda s, g: [s, g], [1.0, 2.0])
+        "A r_min^a r_max^b",
+        ("a", "b"),
+        _linear(lambda s, g: [s, g], [1.0, 2.0]),
+        label=r"$r_{min}^a\, r_{max}^b$",
+        color="#8a5aa5",
+        marker="^",
     ),
-    "grain_size": Predictor("A (r1^q + r2^q)", ("exponent",), _grain_sizes),
+    "grain_size": Predictor(
+        "A (r1^q + r2^q)",
+        ("exponent",),
+        _grain_sizes,
+        label="grain size (Einav)",
+        color="#c1440e",
+        marker="s",
+    ),
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",
         ("s", "g", "ss", "sg", "gg"),
         _linear(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
+        label="any smooth function of both",
+        color="#444444",
+        marker="|",
     ),
 }
 _CONSTANT = _linear(lambda s, g: [], [])
@@ -124,34 +167,40 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
 
     Returns
     -------
-    list of dict
-        name, formula; parameters, each with estimate, low and high; explained_deviance and
-        difference_to_branch_length with _low and _high; or reason. Where no seeds can be left out,
-        as when there is one, these are nan and left_out_reason says why.
+    tuple of FittedPredictor
+        As in `PREDICTORS`. Where no seeds can be left out, as when there is one, what is explained
+        is nan and `left_out_reason` says why.
     """
     options = {"confidence": confidence, "resamples": resamples}
     nothing, _ = _judged(seeds, _CONSTANT)
-    left_out, found = {}, []
+    by_length, fitted = None, []
     for name, predictor in PREDICTORS.items():
-        entry = {"name": name, "formula": predictor.formula}
-        found.append(entry)
         try:
             fit = gamma_fit(seeds, predictor.design)
         except FitError as error:
-            entry["reason"] = str(error)
+            fitted.append(FittedPredictor.without(name, predictor.formula, str(error)))
             continue
         limits = parameter_intervals(fit, rng=Resampling.PREDICTORS.rng(), **options)
-        entry["parameters"] = _named(predictor.names, limits)
-        left_out[name], reason = _judged(seeds, predictor.design, fit.parameters)
-        entry |= _explained(left_out, name, nothing, options)
-        if reason:
-            entry["left_out_reason"] = reason
-    return found
-
-
-def _named(names, limits):
-    # The first parameter is the scale.
-    return {name: limits.part(number)._asdict() for number, name in enumerate(names, start=1)}
+        # The first parameter is the scale.
+        parameters = {key: limits.part(k) for k, key in enumerate(predictor.names, start=1)}
+        left_out, reason = _judged(seeds, predictor.design, fit.parameters)
+        if name == "branch_length":
+            by_length = left_out
+        fitted.append(
+            FittedPredictor(
+                name,
+                predictor.formula,
+                parameters,
+                explained=_gained(nothing, left_out, nothing, options),
+                difference=None
+                if by_length is None
+                else _gained(by_length, left_out, nothing, options),
+                # The one that the energy split is about; its exponent beside that of the bins.
+                exponent=parameters["exponent"].estimate if name == "branch_length" else None,
+                left_out_reason=reason or None,
+            )
+        )
+    return tuple(fitted)
 
 
 def _judged(seeds, design, start=None):
@@ -177,18 +226,14 @@ def _left_out(seeds, design, start):
     return found
 
 
-def _explained(left_out, name, nothing, options):
-    pairs = {"explained_deviance": nothing}
-    if "branch_length" in left_out:
-        pairs["difference_to_branch_length"] = left_out["branch_length"]
-    entry = {}
-    for key, other in pairs.items():
-        sums = np.stack([other - left_out[name], nothing], axis=1)
-        share = pooled_interval(
-            sums, lambda x: x[:, 0] / x[:, 1], rng=Resampling.PREDICTORS.rng(), **options
-        )
-        entry |= share.named(key)
-    return entry
+def _gained(other, deviances, nothing, options):
+    """Return how much less deviance there is than by another predictor, over that of none."""
+    return pooled_interval(
+        np.stack([other - deviances, nothing], axis=1),
+        lambda x: x[:, 0] / x[:, 1],
+        rng=Resampling.PREDICTORS.rng(),
+        **options,
+    )
 
 
 def curvature(seeds, *, confidence=0.95, resamples=2000):
@@ -207,9 +252,7 @@ def curvature(seeds, *, confidence=0.95, resamples=2000):
 
     Returns
     -------
-    dict
-        curvature, slope_at_10_percent, slope_at_mean and slope_at_90_percent of the branches, each
-        with _low and _high.
+    Curvature
 
     Raises
     ------
@@ -234,9 +277,4 @@ def curvature(seeds, *, confidence=0.95, resamples=2000):
     limits = parameter_intervals(
         fit, wanted, confidence=confidence, resamples=resamples, rng=Resampling.PREDICTORS.rng()
     )
-    names = ("curvature", "slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
-    return {
-        key: value
-        for number, name in enumerate(names)
-        for key, value in limits.part(number).named(name).items()
-    }
+    return Curvature(*(limits.part(number) for number in range(4)))

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from branchcrush.branches.predictions import PREDICTIONS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import (
     FAINT,
@@ -18,16 +19,6 @@ from branchcrush.plotting.style import (
     reason,
     widen,
 )
-
-# Of every prediction: what it is called, its colour and its marker.
-PREDICTIONS = {
-    "random_contact": ("Eq. 4, any two alike", MODEL, "s"),
-    "mean_neighbour": ("solid angle, mean neighbour", "#c99a1a", "^"),
-    "surface": ("Bouvard-Lange", FAINT, "v"),
-    "self_consistent": ("self-consistent, rattler cut", "#8a5aa5", "D"),
-    "parking": ("random parking", OTHER, "o"),
-    "configuration": ("measured contact numbers", MEASURED, "P"),
-}
 
 
 def plot_contact_numbers(

@@ -5,18 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import MEASURED, MODEL, OTHER, STATES, axes
+from branchcrush.plotting.style import MODEL, STATES, axes
 from branchcrush.statistics.intervals import LIMITS, interval_names
-
-# Of every predictor: what it is called, its colour and its marker.
-PREDICTORS = {
-    "branch_length": ("branch length l", MEASURED, "o"),
-    "reduced_radius": ("reduced radius R*", OTHER, "D"),
-    "both_radii": (r"$r_{min}^a\, r_{max}^b$", "#8a5aa5", "^"),
-    "grain_size": ("grain size (Einav)", MODEL, "s"),
-    "surface": ("any smooth function of both", "#444444", "|"),
-}
 
 
 def plot_predictors(fit: Mapping, ax: Axes | None = None) -> Axes:
@@ -46,7 +38,7 @@ def plot_predictors(fit: Mapping, ax: Axes | None = None) -> Axes:
                 value, rows, xerr=[value - low, high - value], fmt="o", color=color, label=label
             )
             shown += 1
-    ax.set_yticks(range(len(PREDICTORS)), [label for label, *_ in PREDICTORS.values()])
+    ax.set_yticks(range(len(PREDICTORS)), [p.label for p in PREDICTORS.values()])
     ax.invert_yaxis()
     ax.set_xlabel("deviance explained on seeds left out [-]")
     if not shown:

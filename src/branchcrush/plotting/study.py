@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from branchcrush.branches.predictions import PREDICTIONS
+from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
-from branchcrush.plotting.branches import PREDICTIONS
-from branchcrush.plotting.predictors import PREDICTORS
 from branchcrush.plotting.style import FAINT, axes, draw_band, widen
 from branchcrush.study.findings import GOOD_DISTANCE
 from branchcrush.study.kinds import SampleKind
@@ -125,10 +125,16 @@ def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:
         "energies": ("explained_{}_end", PREDICTORS),
     }[kind]
     places = np.arange(len(rows))
-    for name, (label, color, marker) in looks.items():
+    for name, look in looks.items():
         if column.format(name) in rows:
             ax.plot(
-                rows[column.format(name)], places, marker, ls="", color=color, label=label, ms=4
+                rows[column.format(name)],
+                places,
+                look.marker,
+                ls="",
+                color=look.color,
+                label=look.label,
+                ms=4,
             )
     ax.set_yticks(places, rows["sample"])
     ax.invert_yaxis()

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from branchcrush.energy.fit import Curvature, EndState, EnergySplitFit, StateFit
 from branchcrush.energy.predictors import branch_columns, compared_predictors, curvature
 from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
@@ -98,10 +99,7 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     table : dict of ndarray
         As `energy.split.energy_split`, with the edges of the bins.
     fit : dict
-        exponent with its interval, the exponent of each seed alone, the paper's cubic; fits to all
-        branches at once: `predictors`, the first of them the branch length, with its exponent, and
-        `curvature`, each at the end and, where there is more than one state, in the first loaded
-        one (`near_jamming`).
+        From `energy.fit.EnergySplitFit`.
 
     Raises
     ------
@@ -115,27 +113,20 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
-    fit = {
-        **exponent.named("exponent"),
-        "confidence": confidence,
-        "amplitude_J_per_m_n": float(law.amplitude),
-        "reference_length_m": reference,
-        "exponent_of_each_seed": alone,
-        "mean_of_seed_exponents": float(np.mean(alone)),
-        **end_state(branches, paths, jamming),
-        "cubic_slope": slope,
-        "cubic_r_squared": r_squared,
-        "predictors": _predictors([seed.last for seed in branches], confidence, resamples),
-        "curvature": _curvature([seed.last for seed in branches], confidence, resamples),
-    }
-    if "near_jamming" in named_states(paths[0]):
-        fit["near_jamming"] = {
-            "state": int(paths[0]["state"].iloc[0]),
-            "solid_fraction": _mean(path["solid_fraction"].iloc[0] for path in paths),
-            "predictors": _predictors([seed.first for seed in branches], confidence, resamples),
-            "curvature": _curvature([seed.first for seed in branches], confidence, resamples),
-        }
-    return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
+    fit = EnergySplitFit(
+        exponent=exponent,
+        confidence=confidence,
+        amplitude=float(law.amplitude),
+        reference_length=reference,
+        exponent_of_each_seed=tuple(alone),
+        mean_of_seed_exponents=float(np.mean(alone)),
+        packings=end_state(branches, paths, jamming),
+        cubic_slope=slope,
+        cubic_r_squared=r_squared,
+        end=_state_fit([seed.last for seed in branches], confidence, resamples),
+        near_jamming=_first_state_fit(branches, paths, confidence, resamples),
+    )
+    return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit.result()
 
 
 def end_state(branches, paths, jamming):
@@ -152,21 +143,21 @@ def end_state(branches, paths, jamming):
 
     Returns
     -------
-    dict
+    EndState
     """
     ends = pd.DataFrame([path.iloc[-1] for path in paths])
-    return {
-        "seeds": len(paths),
-        "branches": int(sum(seed.sums[-1, 0].sum() for seed in branches)),
-        "solid_fraction": float(ends["solid_fraction"].mean()),
-        "jamming_solid_fraction": float(jamming),
-        "mean_stress_Pa": float(ends["mean_stress_Pa"].mean()),
-        "elastic_energy_J_per_m3": float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
-        "median_overlap_ratio": _median_overlap_ratio(branches, -1),
-        "coordination_number": float(ends["coordination_number"].mean()),
-        "mechanical_coordination_number": float(ends["mechanical_coordination_number"].mean()),
-        "rattler_fraction": float(ends["rattler_fraction"].mean()),
-    }
+    return EndState(
+        seeds=len(paths),
+        branches=int(sum(seed.sums[-1, 0].sum() for seed in branches)),
+        solid_fraction=float(ends["solid_fraction"].mean()),
+        jamming_solid_fraction=float(jamming),
+        mean_stress=float(ends["mean_stress_Pa"].mean()),
+        elastic_energy_density=float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
+        median_overlap_ratio=_median_overlap_ratio(branches, -1),
+        coordination_number=float(ends["coordination_number"].mean()),
+        mechanical_coordination_number=float(ends["mechanical_coordination_number"].mean()),
+        rattler_fraction=float(ends["rattler_fraction"].mean()),
+    )
 
 
 def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
@@ -211,19 +202,26 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
     return pd.DataFrame(rows)
 
 
-def _predictors(seeds, confidence, resamples):
-    found = compared_predictors(seeds, confidence=confidence, resamples=resamples)
-    # The one that the energy split is about; its exponent beside that of the bins.
-    if "parameters" in found[0]:
-        found[0]["exponent"] = found[0]["parameters"]["exponent"]["estimate"]
-    return found
+def _first_state_fit(branches, paths, confidence, resamples):
+    if "near_jamming" not in named_states(paths[0]):
+        return None
+    return _state_fit(
+        [seed.first for seed in branches],
+        confidence,
+        resamples,
+        state=int(paths[0]["state"].iloc[0]),
+        solid_fraction=_mean(path["solid_fraction"].iloc[0] for path in paths),
+    )
 
 
-def _curvature(seeds, confidence, resamples):
+def _state_fit(seeds, confidence, resamples, **place):
+    options = {"confidence": confidence, "resamples": resamples}
+    predictors = compared_predictors(seeds, **options)
     try:
-        return curvature(seeds, confidence=confidence, resamples=resamples)
+        bend = curvature(seeds, **options)
     except FitError as error:
-        return {"reason": str(error)}
+        bend = Curvature.without(str(error))
+    return StateFit(predictors, bend, **place)
 
 
 def _mean(values):

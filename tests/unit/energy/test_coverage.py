@@ -47,8 +47,8 @@ def covered(request):
         held["binned"] += binned.low <= exponent <= binned.high
         whole = parameter_intervals(gamma_fit(seeds, law), resamples=RESAMPLES, rng=rng)
         held["all branches"] += whole.low[1] <= exponent <= whole.high[1]
-        bend = curvature(seeds, resamples=RESAMPLES)
-        held["curvature"] += bend["curvature_low"] <= 0.0 <= bend["curvature_high"]
+        bend = curvature(seeds, resamples=RESAMPLES).curvature
+        held["curvature"] += bend.low <= 0.0 <= bend.high
     return {method: number / TRIALS for method, number in held.items()}
 
 
@@ -65,9 +65,11 @@ def test_interval_of_the_curvature_covers_0_where_the_law_is_a_power_law(covered
 def test_curvature_is_seen_where_there_is_some(number, seen):
     rng = np.random.default_rng(number + 1)
     found = [
-        curvature([packing(rng, 3.0, 0.15, 0.8) for _ in range(number)], resamples=RESAMPLES)
+        curvature(
+            [packing(rng, 3.0, 0.15, 0.8) for _ in range(number)], resamples=RESAMPLES
+        ).curvature
         for _ in range(TRIALS // 2)
     ]
-    low, high = (np.array([bend[f"curvature_{end}"] for bend in found]) for end in ("low", "high"))
+    low, high = (np.array([getattr(bend, end) for bend in found]) for end in ("low", "high"))
     assert np.mean(low > 0.0) > seen
     assert np.mean((low <= 0.8) & (high >= 0.8)) >= 0.9

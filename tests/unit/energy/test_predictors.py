@@ -25,7 +25,6 @@ LAWS = {
     "grain_size": [2.5],
     "surface": [0.5, 2.5, -0.3, 0.5, 0.4],
 }
-EXPLAINED = ("explained_deviance", "difference_to_branch_length")
 
 
 def law(name, parameters, small, large):
@@ -58,7 +57,7 @@ def study(rng, seeds, branches, mean):
 
 
 def by_name(found):
-    return {entry["name"]: entry for entry in found}
+    return {fitted.name: fitted for fitted in found}
 
 
 # --- the right predictor -------------------------------------------------------------------------
@@ -68,13 +67,13 @@ def by_name(found):
 def test_predictor_recovers_the_parameters_that_energies_were_drawn_with(name):
     seeds = study(np.random.default_rng(1), 10, 1500, lambda s, g: 3 * law(name, LAWS[name], s, g))
     entry = by_name(compared_predictors(seeds))[name]
-    assert entry["formula"] == PREDICTORS[name].formula
-    assert tuple(entry["parameters"]) == PREDICTORS[name].names
-    for found, expected in zip(entry["parameters"].values(), LAWS[name], strict=True):
-        assert found["low"] < found["estimate"] < found["high"]
-        half = (found["high"] - found["low"]) / 2
+    assert entry.formula == PREDICTORS[name].formula
+    assert tuple(entry.parameters) == PREDICTORS[name].names
+    for found, expected in zip(entry.parameters.values(), LAWS[name], strict=True):
+        assert found.low < found.estimate < found.high
+        half = (found.high - found.low) / 2
         # Four standard errors, the half width being Student's 2.26 of them.
-        assert abs(found["estimate"] - expected) < 4 / 2.26 * half
+        assert abs(found.estimate - expected) < 4 / 2.26 * half
         assert half < 0.2
 
 
@@ -88,16 +87,16 @@ def test_right_predictor_explains_the_most_of_seeds_left_out(name, state):
     # The quadratic holds two of the others, and comes near the rest.
     wrong = set(LAWS) - {name, "surface"}
     right = found[name]
-    assert right["explained_deviance_low"] > 0.1
+    assert right.explained.low > 0.1
     for other in wrong:
-        assert found[other]["explained_deviance"] < right["explained_deviance"]
+        assert found[other].explained.estimate < right.explained.estimate
         if name == "branch_length":
-            assert found[other]["difference_to_branch_length_high"] < 0.0
+            assert found[other].difference.high < 0.0
     if name == "branch_length":
-        assert [right[f"{EXPLAINED[1]}{part}"] for part in ("", "_low", "_high")] == [0.0] * 3
+        assert tuple(right.difference) == (0.0, 0.0, 0.0)
     else:
-        assert right["difference_to_branch_length_low"] > 0.0
-    assert found["surface"]["explained_deviance"] > right["explained_deviance"] - 0.01
+        assert right.difference.low > 0.0
+    assert found["surface"].explained.estimate > right.explained.estimate - 0.01
 
 
 def test_energies_known_exactly_are_explained_wholly():
@@ -105,9 +104,9 @@ def test_energies_known_exactly_are_explained_wholly():
     for name, parameters in LAWS.items():
         seeds = [(s, g, law(name, parameters, s, g)) for s, g in (radii(rng, 50) for _ in range(4))]
         entry = by_name(compared_predictors(seeds, resamples=50))[name]
-        found = [value["estimate"] for value in entry["parameters"].values()]
+        found = [value.estimate for value in entry.parameters.values()]
         assert_allclose(found, parameters, atol=1e-7)
-        assert_allclose(entry["explained_deviance"], 1.0, atol=1e-9)
+        assert_allclose(entry.explained.estimate, 1.0, atol=1e-9)
 
 
 def test_energies_independent_of_radii_are_explained_by_nothing():
@@ -116,8 +115,8 @@ def test_energies_independent_of_radii_are_explained_by_nothing():
     for _ in range(trials):
         seeds = study(rng, 8, 200, lambda s, g: np.full(s.size, 5.0))
         for entry in compared_predictors(seeds, resamples=200):
-            above[entry["name"]] += entry["explained_deviance_low"] > 0.0
-            explained.append(entry["explained_deviance"])
+            above[entry.name] += entry.explained.low > 0.0
+            explained.append(entry.explained.estimate)
     # A share of 0.025 at most; more than 5 of 40 has a chance below 1 in 1000.
     assert max(above.values()) <= 5
     assert abs(np.mean(explained)) < 0.005
@@ -164,29 +163,28 @@ def test_every_seed_is_judged_by_a_fit_that_never_saw_it(seeds, groups, unit):
 
     entry = by_name(compared_predictors(data, resamples=50))["both_radii"]
     nothing, by_radii, by_length = map(left_out, (constant, both_radii, length))
-    assert_allclose(entry["explained_deviance"], 1 - by_radii / nothing, rtol=1e-6)
+    assert_allclose(entry.explained.estimate, 1 - by_radii / nothing, rtol=1e-6)
     expected = (by_length - by_radii) / nothing
-    assert_allclose(entry["difference_to_branch_length"], expected, rtol=1e-6)
+    assert_allclose(entry.difference.estimate, expected, rtol=1e-6)
 
 
 def test_one_seed_has_parameters_without_intervals_and_explains_nothing_left_out():
     seeds = study(np.random.default_rng(5), 1, 500, lambda s, g: np.exp(3 * g))
     for entry in compared_predictors(seeds):
-        for parameter in entry["parameters"].values():
-            assert np.isfinite(parameter["estimate"])
-            assert np.isnan([parameter["low"], parameter["high"]]).all()
-        for key in EXPLAINED:
-            assert np.isnan([entry[key + part] for part in ("", "_low", "_high")]).all()
-        assert "one seed" in entry["left_out_reason"]
+        for parameter in entry.parameters.values():
+            assert np.isfinite(parameter.estimate)
+            assert np.isnan([parameter.low, parameter.high]).all()
+        assert np.isnan([*entry.explained, *entry.difference]).all()
+        assert "one seed" in entry.left_out_reason
 
 
 def test_energy_in_one_seed_alone_leaves_its_exponents_and_says_what_is_missing():
     seeds = study(np.random.default_rng(15), 1, 500, lambda s, g: np.exp(3 * g))
     seeds += [branch_columns([], [], [], 1.0)] * 2
     for entry in compared_predictors(seeds, resamples=50):
-        assert all(np.isfinite(value["estimate"]) for value in entry["parameters"].values())
-        assert np.isnan([entry[key] for key in EXPLAINED]).all()
-        assert "without some of the seeds" in entry["left_out_reason"]
+        assert all(np.isfinite(value.estimate) for value in entry.parameters.values())
+        assert np.isnan([entry.explained.estimate, entry.difference.estimate]).all()
+        assert "without some of the seeds" in entry.left_out_reason
 
 
 def test_seed_that_alone_has_a_second_length_cannot_be_left_out():
@@ -194,23 +192,24 @@ def test_seed_that_alone_has_a_second_length_cannot_be_left_out():
     energies = np.random.default_rng(16).exponential(size=(3, 200))
     seeds = [(small, small + 0.5 * (k == 1), energy) for k, energy in enumerate(energies)]
     entry = by_name(compared_predictors(seeds, resamples=50))["branch_length"]
-    assert np.isfinite(entry["parameters"]["exponent"]["estimate"])
-    assert "do not tell the parameters apart" in entry["left_out_reason"]
+    assert np.isfinite(entry.parameters["exponent"].estimate)
+    assert "do not tell the parameters apart" in entry.left_out_reason
 
 
 def test_no_energy_at_all_is_told():
     for entry in compared_predictors([branch_columns([], [], [], 1.0)] * 2):
-        assert "finite energy" in entry["reason"]
+        assert "finite energy" in entry.reason
 
 
 def test_grains_of_a_single_size_give_reasons_and_no_numbers():
     equal = np.zeros(100)
     rng = np.random.default_rng(6)
     found = compared_predictors([(equal, equal, rng.exponential(size=100)) for _ in range(4)])
-    assert [entry["name"] for entry in found] == list(PREDICTORS)
+    assert [entry.name for entry in found] == list(PREDICTORS)
     for entry in found:
-        assert set(entry) == {"name", "formula", "reason"}
-        assert "do not tell the parameters apart" in entry["reason"]
+        assert (dict(entry.parameters), entry.difference, entry.exponent) == ({}, None, None)
+        assert np.isnan(entry.explained).all()
+        assert "do not tell the parameters apart" in entry.reason
 
 
 def test_two_sizes_suffice_for_every_predictor_but_the_quadratic():
@@ -220,10 +219,10 @@ def test_two_sizes_suffice_for_every_predictor_but_the_quadratic():
         small, large = np.sort(np.log(rng.choice([0.3, 1.0], (2, 500))), axis=0)
         seeds.append((small, large, np.exp(large + 2 * small) * rng.exponential(size=500)))
     found = by_name(compared_predictors(seeds))
-    assert "do not tell the parameters apart" in found.pop("surface")["reason"]
+    assert "do not tell the parameters apart" in found.pop("surface").reason
     for entry in found.values():
-        assert entry["explained_deviance_low"] > 0.0
-    a, b = (value["estimate"] for value in found["both_radii"]["parameters"].values())
+        assert entry.explained.low > 0.0
+    a, b = (value.estimate for value in found["both_radii"].parameters.values())
     # Standard errors are near 0.05.
     assert (a, b) == (pytest.approx(2.0, abs=0.2), pytest.approx(1.0, abs=0.2))
 
@@ -245,10 +244,9 @@ def test_units_and_the_order_of_i_and_j_change_no_exponent(state, radius_unit, e
     for entry, same in zip(
         *(compared_predictors(x, resamples=20) for x in (seeds, other)), strict=True
     ):
-        for name, parameter in entry["parameters"].items():
-            values = list(parameter.values())
-            assert_allclose(list(same["parameters"][name].values()), values, rtol=1e-5, atol=1e-5)
-        assert_allclose(same["explained_deviance"], entry["explained_deviance"], atol=1e-7)
+        for name, parameter in entry.parameters.items():
+            assert_allclose(same.parameters[name], parameter, rtol=1e-5, atol=1e-5)
+        assert_allclose(same.explained.estimate, entry.explained.estimate, atol=1e-7)
 
 
 def test_branches_without_energy_are_left_out_of_the_columns():
@@ -283,9 +281,8 @@ def test_exact_quadratic_has_its_own_curvature_and_slopes(bend):
         "slope_at_mean": 2.8,
         "slope_at_90_percent": 2.8 + 2 * bend * long,
     }
-    assert set(found) == {name + part for name in expected for part in ("", "_low", "_high")}
     for name, value in expected.items():
-        assert_allclose([found[name + part] for part in ("", "_low", "_high")], value, atol=1e-7)
+        assert_allclose(getattr(found, name), value, atol=1e-7)
 
 
 def test_three_lengths_of_two_sizes_have_a_curvature_and_two_lengths_none():
@@ -293,7 +290,8 @@ def test_three_lengths_of_two_sizes_have_a_curvature_and_two_lengths_none():
     # Lengths 1/2, 3/4 and 1.
     energy = np.array([1.0, 4.0, 9.0])
     expected = np.polyfit(np.log([0.5, 0.75, 1.0]), np.log(energy), 2)[0]
-    assert curvature([(small, large, energy)] * 2)["curvature"] == pytest.approx(expected)
+    bend = curvature([(small, large, energy)] * 2).curvature
+    assert bend.estimate == pytest.approx(expected)
     for kept in (slice(2), slice(1), slice(0)):
         with pytest.raises(FitError):
             curvature([(small[kept], large[kept], energy[kept])] * 2)
@@ -301,5 +299,5 @@ def test_three_lengths_of_two_sizes_have_a_curvature_and_two_lengths_none():
 
 def test_one_seed_has_a_curvature_without_an_interval():
     found = curvature(study(np.random.default_rng(9), 1, 500, lambda s, g: np.exp(3 * g)))
-    assert np.isfinite(found["curvature"])
-    assert np.isnan([found["curvature_low"], found["slope_at_mean_high"]]).all()
+    assert np.isfinite(found.curvature.estimate)
+    assert np.isnan([found.curvature.low, found.slope_at_mean.high]).all()
