@@ -1,13 +1,14 @@
 """Draw what is fitted to a sample: the energy split, branch lengths, and the crushing model."""
 
 from branchcrush.config.build import grading_of
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
 from branchcrush.plotting import sample_figures as figures
 
 with job(snakemake.log[0]):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
-    split, fit = read_table(files.split), read_json(files.fit)
+    split, fit = read_table(files.split), EnergySplitFit.read(read_json(files.fit))
     lengths, statistics = read_table(files.lengths), read_json(files.statistics)
     curves, model = read_table(files.curves), read_json(files.summary)
     _, largest = grading_of(snakemake.params.sample["grading"]).support()

@@ -1,10 +1,9 @@
 """Figures 5 and 6 of the paper, and the exponent along the loading path."""
 
-from collections.abc import Mapping
-
 import numpy as np
 from matplotlib.axes import Axes
 
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes, draw_band, widen
@@ -14,15 +13,15 @@ from branchcrush.statistics.intervals import interval_text
 THIN = 100
 
 
-def plot_energy_split(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
+def plot_energy_split(table: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function and its fitted power law (Fig. 5).
 
     Parameters
     ----------
     table : DataFrame
         `energy_split.csv`.
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -32,19 +31,13 @@ def plot_energy_split(table: Table, fit: Mapping, ax: Axes | None = None) -> Axe
     ax = axes(ax)
     empty = int((table["branches"] == 0).sum())
     table = table[table["branches"] > 0]
-    x = table["branch_length_m"] / fit["reference_length_m"]
+    x = table["branch_length_m"] / fit.reference_length
     line = np.linspace(0.0, x.max() * 1.03, 200)
-    interval = interval_text(fit["exponent"], fit["exponent_low"], fit["exponent_high"])
-    if fit["exponent_low"] is not None:
-        ax.fill_between(
-            line,
-            line ** fit["exponent_low"],
-            line ** fit["exponent_high"],
-            color=MODEL,
-            alpha=0.2,
-            lw=0,
-        )
-    ax.plot(line, line ** fit["exponent"], color=MODEL, label=f"$(l/l_r)^n$, n = {interval}")
+    n = fit.exponent
+    if np.isfinite(n.low):
+        ax.fill_between(line, line**n.low, line**n.high, color=MODEL, alpha=0.2, lw=0)
+    text = f"$(l/l_r)^n$, n = {interval_text(*n)}"
+    ax.plot(line, line**n.estimate, color=MODEL, label=text)
     ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     _mark_thin(ax, x, table["f"], table["branches"], empty)
     ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
@@ -54,7 +47,7 @@ def plot_energy_split(table: Table, fit: Mapping, ax: Axes | None = None) -> Axe
     return ax
 
 
-def plot_cubic(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
+def plot_cubic(table: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function against the cube of the length, with its R^2 (Fig. 6).
 
     Parameters
@@ -68,13 +61,13 @@ def plot_cubic(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax)
     table = table[table["branches"] > 0]
-    x = (table["branch_length_m"] / fit["reference_length_m"]) ** 3
+    x = (table["branch_length_m"] / fit.reference_length) ** 3
     line = np.array([0.0, x.max() * 1.03])
     ax.plot(
         line,
-        fit["cubic_slope"] * line,
+        fit.cubic_slope * line,
         color=MODEL,
-        label=f"f = {fit['cubic_slope']:.3f} $(l/l_r)^3$, $R^2$ = {fit['cubic_r_squared']:.4f}",
+        label=f"f = {fit.cubic_slope:.3f} $(l/l_r)^3$, $R^2$ = {fit.cubic_r_squared:.4f}",
     )
     ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     thin = table["branches"][table["branches"] < THIN]
@@ -88,15 +81,15 @@ def plot_cubic(table: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def plot_exponent_path(path: Table, fit: Mapping, ax: Axes | None = None) -> Axes:
+def plot_exponent_path(path: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the exponent of the energy split along the loading path.
 
     Parameters
     ----------
     path : DataFrame
         `energy_split_path.csv`.
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -107,7 +100,7 @@ def plot_exponent_path(path: Table, fit: Mapping, ax: Axes | None = None) -> Axe
     path = path[path["exponent"].notna()]
     phi, label = above_jamming(path)
     if path["exponent_low"].notna().all():
-        label_of_band = f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds"
+        label_of_band = f"{fit.confidence:.0%} interval, {fit.packings.seeds} seeds"
         draw_band(ax, phi, path, "exponent", MEASURED, label_of_band)
     ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
     ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
@@ -147,11 +140,12 @@ def _mark_thin(ax, x, y, counts, empty):
 
 
 def _seeds(fit):
-    return f"{fit['seeds']} seed{'s' if fit['seeds'] > 1 else ''}, bin means"
+    seeds = fit.packings.seeds
+    return f"{seeds} seed{'s' if seeds > 1 else ''}, bin means"
 
 
 def _title(fit):
-    title = rf"$\phi$ = {fit['solid_fraction']:.3f}"
-    if fit["exponent_low"] is None:
+    title = rf"$\phi$ = {fit.packings.solid_fraction:.3f}"
+    if not np.isfinite(fit.exponent.low):
         return title
-    return f"{title}, {fit['confidence']:.0%} interval"
+    return f"{title}, {fit.confidence:.0%} interval"

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import (
@@ -130,17 +131,17 @@ def draw_certificate(
 # --- fits ----------------------------------------------------------------------------------------
 
 
-def draw_energy_split(path: Path, dpi: int, table: Table, fit: Mapping) -> Figure:
+def draw_energy_split(path: Path, dpi: int, table: Table, fit: EnergySplitFit) -> Figure:
     """Draw Fig. 5 from `energy_split.csv` and `energy_split.json`, and return it."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_energy_split, fit.get("reason"), table, fit, ax=ax)
+        drawn(energy.plot_energy_split, fit.reason, table, fit, ax=ax)
     return ax.figure
 
 
-def draw_cubic(path: Path, dpi: int, table: Table, fit: Mapping) -> Figure:
+def draw_cubic(path: Path, dpi: int, table: Table, fit: EnergySplitFit) -> Figure:
     """Draw Fig. 6 from `energy_split.csv` and `energy_split.json`, and return it."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_cubic, fit.get("reason"), table, fit, ax=ax)
+        drawn(energy.plot_cubic, fit.reason, table, fit, ax=ax)
     return ax.figure
 
 
@@ -160,18 +161,18 @@ def draw_branch_lengths(
     return ax.figure
 
 
-def draw_exponent_path(path: Path, dpi: int, states: Table, fit: Mapping) -> Figure:
+def draw_exponent_path(path: Path, dpi: int, states: Table, fit: EnergySplitFit) -> Figure:
     """Draw n along the loading from `energy_split_path.csv` and `energy_split.json`."""
     with figure(path, dpi) as ax:
-        drawn(energy.plot_exponent_path, fit.get("reason"), states, fit, ax=ax)
+        drawn(energy.plot_exponent_path, fit.reason, states, fit, ax=ax)
     return ax.figure
 
 
-def draw_predictors(path: Path, dpi: int, fit: Mapping) -> Figure:
+def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit) -> Figure:
     """Draw what predicts the energies, and their local exponents, from `energy_split.json`."""
     with figure(path, dpi, *grid(1, 2)) as panels:
-        drawn(predictors.plot_predictors, fit.get("reason"), fit, ax=panels[0])
-        drawn(predictors.plot_slopes, fit.get("reason"), fit, ax=panels[1])
+        drawn(predictors.plot_predictors, fit.reason, fit, ax=panels[0])
+        drawn(predictors.plot_slopes, fit.reason, fit, ax=panels[1])
     return panels[0].figure
 
 

@@ -24,7 +24,7 @@ class Reading:
         return np.array([segment[:, column] for segment in bars.get_segments()], dtype=float).T
 
     def band(self, collection):
-        """Return x, lower and upper end of a band, shape (3, n), at the values of x it was given."""
+        """Return x, lower and upper end of a band, shape (3, n), at each x it was given."""
         x, y = collection.get_paths()[0].vertices.T
         at = np.unique(x)
         return np.array([at, [y[x == v].min() for v in at], [y[x == v].max() for v in at]])
