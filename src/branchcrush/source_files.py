@@ -2,6 +2,7 @@
 
 import ast
 from functools import cache
+from os import PathLike
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
@@ -10,7 +11,7 @@ _NO_RESULT = {"jobs"}
 
 
 @cache
-def imported_modules(path):
+def imported_modules(path: str | PathLike[str]) -> frozenset[str]:
     """Return the modules of this package that a Python file imports directly.
 
     Parameters
@@ -27,18 +28,18 @@ def imported_modules(path):
     >>> sorted(imported_modules(Path(__file__).with_name("packings") / "placement.py"))
     ['errors', 'packings.cell_grid', 'packings.geometry']
     """
-    found = set()
+    modules = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "branchcrush":
             base = node.module.removeprefix("branchcrush").lstrip(".")
             names = {f"{base}.{alias.name}".lstrip(".") for alias in node.names}
             # `from branchcrush import tables` names a module, `from branchcrush.errors import X`
             # a name inside one.
-            found |= {name for name in names if _file(name)} or {base}
-    return frozenset(name for name in found if _file(name))
+            modules |= {name for name in names if _file(name)} or {base}
+    return frozenset(name for name in modules if _file(name))
 
 
-def source_files(path):
+def source_files(path: str | PathLike[str]) -> list[str]:
     """Return the files of this package that a Python file imports, directly or through others.
 
     Parameters
@@ -67,6 +68,7 @@ def source_files(path):
 
 
 def _file(module):
+    """Return the file of a module, or None where there is no such module."""
     path = _PACKAGE.joinpath(*module.split("."))
     for candidate in (path.with_suffix(".py"), path / "__init__.py"):
         if module and candidate.is_file():

@@ -1,7 +1,10 @@
 """What a run of `lammps_inputs/in.compress` leaves, made into tables state by state."""
 
+from collections.abc import Mapping
 from functools import partial
-from typing import NamedTuple
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from pyarrow import csv
@@ -24,12 +27,14 @@ class Compression(NamedTuple):
     steps: dict  # a row for each strain step
 
 
-def read_compression(folder, variables, stopped):
+def read_compression(
+    folder: str | PathLike[str], variables: Mapping[str, Any], stopped: str
+) -> Compression:
     """Return the loading path and the contacts of a run; one state's dump is held at a time.
 
     Parameters
     ----------
-    folder : pathlib.Path
+    folder : path-like
         Holds states.csv, steps.csv and the `DUMPS`.
     variables : dict
         Those of the run, as `lammps.compression.compression_variables`.
@@ -45,6 +50,7 @@ def read_compression(folder, variables, stopped):
     SimulationError
         When a contact is listed twice, or a dump does not hold a frame for each state.
     """
+    folder = Path(folder)
     scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
     lines = [dict(zip(scalars, line, strict=True)) for line in zip(*scalars.values(), strict=True)]
     frames = [read_dump(folder / name) for name in DUMPS]
@@ -72,6 +78,7 @@ def read_compression(folder, variables, stopped):
 
 
 def _columns(path):
+    """Return the columns of a file that LAMMPS printed, line by line."""
     # Arrow's own `to_numpy` would import pandas, which takes half a second.
     options = csv.ReadOptions(use_threads=False), None, csv.ConvertOptions(null_values=[])
     columns = csv.read_csv(path, *options).to_pydict()
@@ -96,6 +103,7 @@ def _state(line, particles, pairs, *, variables, first_edge):
 
 
 def _leg(state, variables):
+    """Return whether a state is on the way to the furthest target, or on the way back."""
     # Targets that go back unload. Two states come before the first target.
     targets = np.asarray(variables["targets"]) * (-1 if variables["control"] == "edge" else 1)
     return "loading" if state - 2 <= int(np.argmax(targets)) else "unloading"
