@@ -113,7 +113,7 @@ def compiled_modules(tmp_path_factory):
         if os.environ.get("PYTHONDONTWRITEBYTECODE"):
             patch.delenv("PYTHONDONTWRITEBYTECODE")
             patch.setenv("PYTHONPYCACHEPREFIX", str(tmp_path_factory.mktemp("compiled")))
-            modules = "import snakemake.cli, branchcrush.config_checks"
+            modules = "import snakemake.cli, branchcrush.config.checks"
             subprocess.run([sys.executable, "-c", modules], check=True)
         yield
 

@@ -1,63 +1,165 @@
 """Free energy, crushing and dissipation of a granular assembly: Eqs. 9 to 23, corrected.
 
 All follows from theta, the share of the energy that crushing can release, and Psi_0(eps), the
-elastic energy before crushing: another form of the model is another pair of moments for `theta`,
-another material another `Elasticity`. Compression is positive, energies are per reference volume
-[J/m3 = Pa]. Arguments of "any shape" are scalars or arrays that broadcast.
+elastic energy before crushing. Arguments of "any shape" are scalars or arrays that broadcast.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import boxcox1p
 
 from branchcrush.crushing.elasticity import Elasticity
 from branchcrush.errors import AdmissibilityError
 
 
-def theta(moment_initial: float, moment_ultimate: float) -> float:
-    """Share of the elastic energy that complete crushing releases: 1 - <l^n>_u / <l^n>_0.
+def admissibility_problem(initial_moment: float, ultimate_moment: float) -> str | None:
+    r"""Return why crushing from one grading to another is not admissible, and what to change.
 
-    moment_initial, moment_ultimate: <l^n>_0 and <l^n>_u, scalars of one unit [m^n].
-    Raises AdmissibilityError unless 0 < <l^n>_u <= <l^n>_0, both finite.  Source: Eqs. 15 and 22.
-    >>> theta(moment_initial=1.0, moment_ultimate=0.25)
-    0.75
+    .. math:: 0 < \langle l^n \rangle_u \le \langle l^n \rangle_0 < \infty
+
+    Parameters
+    ----------
+    initial_moment, ultimate_moment : float
+        <l^n>_0 and <l^n>_u of the two gradings, in one unit [m^n].
+
+    Returns
+    -------
+    str or None
+        None when it is admissible.
+
+    Examples
+    --------
+    >>> admissibility_problem(1.0, 0.25) is None
+    True
+    >>> print(admissibility_problem(1.0, 1.5).split(",")[0])
+    the ultimate grading is coarser than the initial one: its mean of l^n is 1.5 times as large
+
+    References
+    ----------
+    Paper, Eqs. 15 and 22.
     """
-    if not 0 < moment_ultimate <= moment_initial < np.inf:
-        raise AdmissibilityError(
-            f"initial moment {moment_initial:.6g}, ultimate moment {moment_ultimate:.6g}: both must"
-            " be positive and finite, and the ultimate not larger, else crushing would create"
-            " energy. Choose an ultimate distribution of smaller moment, or another exponent"
+    if not (0 < initial_moment < np.inf and 0 < ultimate_moment < np.inf):
+        return (
+            "the mean of l^n must be positive and finite for both gradings: initial"
+            f" {initial_moment:.3g}, ultimate {ultimate_moment:.3g}"
         )
-    return float(1 - moment_ultimate / moment_initial)
+    if ultimate_moment > initial_moment:
+        return (
+            "the ultimate grading is coarser than the initial one: its mean of l^n is"
+            f" {ultimate_moment / initial_moment:.4g} times as large, so crushing would create"
+            " energy. Raise thermodynamics.ultimate_alpha, which makes the ultimate grading finer,"
+            " or let both reach finer sizes: a smaller grading.min"
+        )
+    return None
 
 
-def reference_energy(elastic_energy: ArrayLike, moment: float, n: float, l_r: float) -> NDArray:
-    """Energy of the reference branches: psi_r = Psi_0 / <f>_0 = Psi_0 l_r^n / <l^n>_0 [J/m3].
+def theta(initial_moment: float, ultimate_moment: float) -> float:
+    r"""Return the share of the elastic energy that complete crushing releases.
 
-    elastic_energy: Psi_0, any shape [J/m3]; moment: <l^n>_0, scalar [m^n]; n: scalar [-];
-    l_r: reference branch length, scalar [m].  Source: Eqs. 9 to 11.
-    >>> print(reference_energy(2.0, moment=1.0, n=3.0, l_r=0.5))
-    0.25
+    .. math:: \theta = 1 - \frac{\langle l^n \rangle_u}{\langle l^n \rangle_0}
+
+    Parameters
+    ----------
+    initial_moment, ultimate_moment : float
+        <l^n>_0 and <l^n>_u, in one unit [m^n].
+
+    Returns
+    -------
+    float
+        From 0 to 1 [-].
+
+    Raises
+    ------
+    AdmissibilityError
+        As `admissibility_problem` says.
+
+    Examples
+    --------
+    >>> theta(1.0, 0.25)
+    0.75
+
+    References
+    ----------
+    Paper, Eqs. 15 and 22.
     """
-    return np.multiply(elastic_energy, l_r**n / moment)
+    problem = admissibility_problem(initial_moment, ultimate_moment)
+    if problem:
+        raise AdmissibilityError(problem)
+    return float(1 - ultimate_moment / initial_moment)
+
+
+def reference_energy(
+    elastic_energy: ArrayLike, moment: float, exponent: float, reference_length: float
+) -> NDArray:
+    r"""Return the energy of the branches of the reference length.
+
+    .. math:: \psi_r = \frac{\Psi_0}{\langle f \rangle_0}
+        = \frac{\Psi_0\, l_r^n}{\langle l^n \rangle_0}
+
+    Parameters
+    ----------
+    elastic_energy : array_like
+        Psi_0, any shape [J/m3].
+    moment : float
+        <l^n>_0 [m^n].
+    exponent : float
+        n of the energy split [-].
+    reference_length : float
+        l_r [m].
+
+    Returns
+    -------
+    ndarray
+        Shape of `elastic_energy` [J/m3].
+
+    Examples
+    --------
+    >>> float(reference_energy(2.0, moment=1.0, exponent=3.0, reference_length=0.5))
+    0.25
+
+    References
+    ----------
+    Paper, Eqs. 9 to 11.
+    """
+    return np.multiply(elastic_energy, reference_length**exponent / moment)
 
 
 @dataclass(frozen=True)
 class CrushingLaw:
-    """Energy that crushing releases, and the resistance to it, per unit of the parameter C.
+    r"""Energy that crushing releases, and the resistance to it, per unit of the parameter C.
 
-    Psi = (1 - theta C) Psi_0,  E_C = -dPsi/dC,  E_C <= E_c0 / (1 - C)^s where "=" lets C grow
+    .. math:: \Psi = (1 - \theta C)\, \Psi_0, \qquad
+        E_C = -\frac{\partial \Psi}{\partial C} \le \frac{E_{c0}}{(1 - C)^s}
 
-    theta [-]; critical_energy: E_c0 [J/m3]; hardening_exponent: s [-]; all scalars. The paper
-    leaves the resistance open; a constant one (s = 0) is ill-posed: C jumps from 0 to 1. s = 2 is
-    Einav's (1 - C)^2 E_C = E_c0. Methods take any shape: crushing is C [-], energies in [J/m3].
-    Raises AdmissibilityError unless 0 <= theta <= 1, ValueError unless E_c0 and s are positive.
-    Source: Eqs. 16 to 23; Eq. 16 lacks its brackets, Eqs. 17 and 23 lack 1/l_r^n.
+    C grows where both sides are equal. The paper leaves the resistance open; a constant one, s = 0,
+    is ill-posed: C jumps from 0 to 1. s = 2 is Einav's (1 - C)^2 E_C = E_c0.
+
+    Parameters
+    ----------
+    theta : float
+        Share of the elastic energy that complete crushing releases, from 0 to 1 [-].
+    critical_energy : float
+        E_c0 [J/m3].
+    hardening_exponent : float
+        s [-].
+
+    Raises
+    ------
+    AdmissibilityError
+        Unless theta is from 0 to 1.
+    ValueError
+        Unless E_c0 and s are positive and finite.
+
+    Examples
+    --------
     >>> law = CrushingLaw(theta=0.5, critical_energy=1.0, hardening_exponent=2.0)
-    >>> print(law.yield_energy, law.equilibrium_crushing([1.0, 8.0]), law.stress(0.5, 4.0))
-    2.0 [0.  0.5] 3.0
+    >>> law.yield_energy, law.equilibrium_crushing([1.0, 8.0]).tolist(), float(law.stress(0.5, 4.0))
+    (2.0, [0.0, 0.5], 3.0)
+
+    References
+    ----------
+    Paper, Eqs. 16 to 23; Eq. 16 lacks its brackets, Eqs. 17 and 23 lack 1/l_r^n.
     """
 
     theta: float
@@ -71,39 +173,151 @@ class CrushingLaw:
             raise ValueError(f"critical energy and hardening must be positive and finite: {self}")
 
     def free_energy(self, crushing: ArrayLike, elastic_energy: ArrayLike) -> NDArray:
-        """Stored energy Psi = (1 - theta C) Psi_0 [J/m3] (Eq. 16)."""
+        r"""Return the stored energy, Eq. 16.
+
+        .. math:: \Psi = (1 - \theta C)\, \Psi_0
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape [-].
+        elastic_energy : array_like
+            Psi_0, any shape [J/m3].
+
+        Returns
+        -------
+        ndarray
+            [J/m3]
+        """
         return (1 - np.multiply(self.theta, crushing)) * elastic_energy
 
     def stress(self, crushing: ArrayLike, elastic_pressure: ArrayLike) -> NDArray:
-        """Mean stress sigma = dPsi/deps = (1 - theta C) p_0 [Pa] (Eq. 23, first bracket)."""
+        r"""Return the mean stress, the first bracket of Eq. 23.
+
+        .. math:: \sigma = \frac{\partial \Psi}{\partial \epsilon} = (1 - \theta C)\, p_0
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape [-].
+        elastic_pressure : array_like
+            p_0, any shape [Pa].
+
+        Returns
+        -------
+        ndarray
+            [Pa]
+        """
         return (1 - np.multiply(self.theta, crushing)) * elastic_pressure
 
     def driving_force(self, elastic_energy: ArrayLike) -> NDArray:
-        """Driving force E_C = -dPsi/dC = theta Psi_0 [J/m3] (Eq. 23, second bracket)."""
+        r"""Return the driving force of crushing, the second bracket of Eq. 23.
+
+        .. math:: E_C = -\frac{\partial \Psi}{\partial C} = \theta\, \Psi_0
+
+        Parameters
+        ----------
+        elastic_energy : array_like
+            Psi_0, any shape [J/m3].
+
+        Returns
+        -------
+        ndarray
+            [J/m3]
+        """
         return np.multiply(self.theta, elastic_energy)
 
     def resistance(self, crushing: ArrayLike) -> NDArray:
-        """Resistance E_c = E_c0 / (1 - C)^s [J/m3]."""
+        r"""Return the resistance to more crushing.
+
+        .. math:: E_c = \frac{E_{c0}}{(1 - C)^s}
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape, below 1 [-].
+
+        Returns
+        -------
+        ndarray
+            [J/m3]
+        """
         return self.critical_energy / np.subtract(1, crushing) ** self.hardening_exponent
 
     @property
     def yield_energy(self) -> float:
-        """Elastic energy at which crushing begins: Psi_y = E_c0 / theta [J/m3]."""
+        """The elastic energy at which crushing begins: Psi_y = E_c0 / theta [J/m3]."""
         return self.critical_energy / self.theta if self.theta > 0 else np.inf
 
     def yield_strain(self, elasticity: Elasticity) -> NDArray:
-        """Strain at which crushing begins [-]: eps_y = [(m+1) E_c0 / (theta A)]^(1/(m+1))."""
+        r"""Return the strain at which crushing begins.
+
+        .. math:: \Psi_0(\epsilon_y) = \Psi_y, \qquad
+            \epsilon_y = \left[\frac{(m+1)\, E_{c0}}{\theta A}\right]^{1/(m+1)}
+
+        The second is for a power law from 0 on.
+
+        Parameters
+        ----------
+        elasticity : Elasticity
+
+        Returns
+        -------
+        ndarray
+            [-]; infinite when theta is 0.
+        """
         return elasticity.strain_at_energy(self.yield_energy)
 
     def equilibrium_crushing(self, largest_energy: ArrayLike) -> NDArray:
-        """Crushing C = 1 - (Psi_y / Psi_0)^(1/s) [-] at the largest Psi_0 so far [J/m3]."""
+        r"""Return how far crushing has come, from the largest elastic energy so far.
+
+        .. math:: C = 1 - \left(\frac{\Psi_y}{\Psi_0}\right)^{1/s}, \qquad \Psi_0 \ge \Psi_y
+
+        Parameters
+        ----------
+        largest_energy : array_like
+            Psi_0, any shape [J/m3].
+
+        Returns
+        -------
+        ndarray
+            [-]; 0 up to the yield energy.
+        """
         overload = np.maximum(self.driving_force(largest_energy) / self.critical_energy, 1)
         return -np.expm1(-np.log(overload) / self.hardening_exponent)
 
     def dissipated_energy(self, crushing: ArrayLike) -> NDArray:
-        """Dissipation int E_c dC = E_c0 [(1 - C)^(1-s) - 1] / (s - 1) [J/m3] (Eq. 20)."""
+        r"""Return the energy that crushing has dissipated, Eq. 20.
+
+        .. math:: \int_0^C E_c\, dC = E_{c0}\, \frac{(1 - C)^{1-s} - 1}{s - 1}
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape [-].
+
+        Returns
+        -------
+        ndarray
+            [J/m3]; its limit -E_c0 ln(1 - C) where s is 1.
+        """
+        from scipy.special import boxcox1p  # slow to import, and the preview does without
+
         return -self.critical_energy * boxcox1p(np.negative(crushing), 1 - self.hardening_exponent)
 
     def least_hardening_exponent(self, elastic_exponent: float) -> float:
-        """Least s with which stress ~ eps^m never falls as crushing begins: theta (1 + 1/m) [-]."""
+        r"""Return the least s with which the stress never falls as crushing begins.
+
+        .. math:: s_{min} = \theta\, (1 + 1/m)
+
+        Parameters
+        ----------
+        elastic_exponent : float
+            m of p_0 = A eps^m [-].
+
+        Returns
+        -------
+        float
+            [-]
+        """
         return self.theta * (1 + 1 / elastic_exponent)

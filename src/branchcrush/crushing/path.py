@@ -13,17 +13,20 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 
 @dataclass(frozen=True)
 class CrushingPath:
-    """History along a strain path; each array has the shape (states,) of the strain."""
+    """History along a strain path; each array has the shape (states,) of the strain.
 
-    strain: NDArray  # [-]
+    `work` is integrated by quadrature, and so an independent check on `stored` + `dissipated`.
+    """
+
+    strain: NDArray  # eps [-]
     elastic_energy: NDArray  # Psi_0 [J/m3]
     crushing: NDArray  # C [-]
     stress: NDArray  # sigma [Pa]
     driving_force: NDArray  # E_C [J/m3]
     resistance: NDArray  # E_c(C) [J/m3]
     stored: NDArray  # Psi [J/m3]
-    dissipated: NDArray  # int E_C dC [J/m3]
-    work: NDArray  # int sigma deps [J/m3], by quadrature: an independent check on the sum of both
+    dissipated: NDArray  # integral of E_C over C [J/m3]
+    work: NDArray  # integral of sigma over eps [J/m3]
 
 
 def crushing_path(
@@ -33,16 +36,37 @@ def crushing_path(
     critical_energy: float,
     hardening_exponent: float,
 ) -> CrushingPath:
-    """Crushing, stress and energies along any strain path that starts from the unloaded state.
+    """Return crushing, stress and energies along any strain path from the unloaded state.
 
-    C follows the largest Psi_0 reached so far and is frozen below it; work = stored + dissipated.
-    strain: shape (states,), compression positive, loading or unloading, the first state reached
-    straight from the onset [-]; elasticity: Psi_0(eps); the others as in `CrushingLaw`.
-    Raises what `CrushingLaw` raises, and ValueError for a strain that is not a finite 1-D array.
+    C follows the largest Psi_0 reached so far and is frozen below it; work is stored or dissipated.
+
+    Parameters
+    ----------
+    strain : array_like, shape (states,)
+        Compression positive, loading or unloading, the first state reached straight from the onset
+        [-].
+    elasticity : Elasticity
+        Psi_0(eps).
+    theta, critical_energy, hardening_exponent : float
+        As for `CrushingLaw` [-], [J/m3], [-].
+
+    Returns
+    -------
+    CrushingPath
+
+    Raises
+    ------
+    AdmissibilityError
+        As `CrushingLaw`.
+    ValueError
+        As `CrushingLaw`, and for a strain that is not one row of finite numbers.
+
+    Examples
+    --------
     >>> from branchcrush.crushing.elasticity import PowerLawElasticity
     >>> path = crushing_path([0.05, 0.1, 0.0], PowerLawElasticity(1.0, 1.0), 0.6, 1e-3, 2.0)
-    >>> print(path.crushing.round(4), np.allclose(path.work, path.stored + path.dissipated))
-    [0.     0.4226 0.4226] True
+    >>> path.crushing.round(4).tolist(), np.allclose(path.work, path.stored + path.dissipated)
+    ([0.0, 0.4226, 0.4226], True)
     """
     law = CrushingLaw(theta, critical_energy, hardening_exponent)
     strain = np.asarray(strain, float)
@@ -65,7 +89,7 @@ def crushing_path(
 
 
 def _work(strain: NDArray, largest: NDArray, elasticity: Elasticity, law: CrushingLaw) -> NDArray:
-    """Cumulative integral of sigma deps from the onset, by Gauss-Legendre on smooth pieces."""
+    """Return the integral of sigma over eps from the onset, by Gauss-Legendre on smooth pieces."""
     onset = elasticity.strain_at_energy(0.0)
     before = np.append(0.0, largest[:-1])
     start = np.append(onset, strain[:-1])
