@@ -239,6 +239,7 @@ def _rules(runs, settings, study, resamples):
             "states": certified["certificate"],
             "refined_states": [f"results/{sample}/certificate.csv" for sample, _ in runs[1:]],
             "grading": f"results/{name}/grading.json",
+            **fit,
             **jamming,
             "all_paths": paths["paths"],
             "paths": files(name, "path.csv", refined_seeds),

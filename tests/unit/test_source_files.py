@@ -95,7 +95,9 @@ print(json.dumps(found))
 
 @pytest.mark.parametrize("module", sorted(PURE))
 def test_pure_module_imports_only_pure_modules(module):
-    assert closure(module) <= PURE | {"errors"}
+    # Of files, a room of samples takes only how a result says that there are no data.
+    allowed = {"files.tables"} if module.startswith("samples.") else set()
+    assert closure(module) <= PURE | {"errors"} | allowed
 
 
 @pytest.mark.parametrize("module", sorted(PURE))

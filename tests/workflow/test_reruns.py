@@ -8,9 +8,8 @@ PAGE = {"findings_page"}
 FIGURES = {"packing_figures", "fit_figures", "network_figures", "report"} | PAGE
 MODEL = {"thermodynamics", "comparison", "packing_figures", "fit_figures", "report"}
 NETWORKS = {"branch_lengths", "sharing", "network_figures", "findings"} | PAGE
-SPLIT = {"energy_split"} | MODEL | NETWORKS
-BINS = {"verdict"} | SPLIT
-PACKING = {"compression", "grading", "certificate"} | BINS
+SPLIT = {"energy_split", "verdict"} | MODEL | NETWORKS
+PACKING = {"compression", "grading", "certificate"} | SPLIT
 
 
 @pytest.fixture
@@ -31,7 +30,7 @@ def test_a_second_run_does_nothing(study):
         ("dpi: 100", "dpi: 120", FIGURES),
         ("figures:", "thermodynamics: {critical_energy: 3.0e5}\nfigures:", MODEL),
         ("figures:", "energy_split: {confidence: 0.9}\nfigures:", SPLIT),
-        ("figures:", "energy_split: {bins: 15}\nfigures:", BINS),
+        ("figures:", "energy_split: {bins: 15}\nfigures:", SPLIT),
         # The job that compresses a packing makes it.
         ("states: 12", "states: 8", PACKING),
         ("    grains", "    contact: {law: linear, normal_stiffness: 2.0e6}\n    grains", PACKING),

@@ -32,6 +32,8 @@ rule verdict:
         ],
         jamming="results/{sample}/jamming.csv",
         grading="results/{sample}/grading.json",
+        # Whether its interval tells n; fits take the states that are certified, not the verdict.
+        fit="results/{sample}/energy_split.json",
         all_paths=of_all_seeds("path.csv"),
         paths=of_refined_seeds("path.csv", refined=False),
         contacts=of_refined_seeds("contacts.parquet", refined=False),
@@ -44,6 +46,8 @@ rule verdict:
         certificate="results/{sample}/certificate.json",
     log:
         "logs/{sample}/verdict.log",
+    # Figures wait for it, as for the model, and both for the fit.
+    priority: 1
     conda:
         "../envs/branchcrush.yaml"
     params:

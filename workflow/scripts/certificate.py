@@ -2,17 +2,18 @@
 
 from branchcrush.files.tables import provenance, read_packing, read_table, write_table
 from branchcrush.jobs import job
-from branchcrush.loading.states import stress_floor
 from branchcrush.packings.contact_laws import contact_law
-from branchcrush.samples.certificate import jamming_points, state_certificates
+from branchcrush.samples.certificate import certificate_tables
 
 with job(snakemake.log[0]):
     sample, files = snakemake.params.sample, snakemake.input
-    law, seeds = contact_law(**sample["contact"]), sample["seeds"]
-    paths = [read_table(path) for path in files.paths]
-    floors = [stress_floor(read_packing(path)[1], law) for path in files.packings]
-    steps = [read_table(path) for path in files.steps]
-    points = jamming_points(seeds, steps, paths, law.exponent, floors)
+    states, points = certificate_tables(
+        contact_law(**sample["contact"]),
+        sample["seeds"],
+        [read_table(path) for path in files.paths],
+        [read_table(path) for path in files.steps],
+        [read_packing(path)[1] for path in files.packings],
+    )
     origin = provenance(sample=snakemake.wildcards.sample, config=sample)
-    write_table(snakemake.output.states, state_certificates(seeds, paths), origin)
+    write_table(snakemake.output.states, states, origin)
     write_table(snakemake.output.jamming, points, origin)

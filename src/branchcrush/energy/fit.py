@@ -20,7 +20,7 @@ _END_NAMES = {
     "jamming_solid_fraction": "jamming_solid_fraction",
     "mean_stress": "mean_stress_Pa",
     "elastic_energy_density": "elastic_energy_J_per_m3",
-    "median_overlap_ratio": "median_overlap_ratio",
+    "median_overlap_over_length": "median_overlap_over_length",
     "coordination_number": "coordination_number",
     "mechanical_coordination_number": "mechanical_coordination_number",
     "rattler_fraction": "rattler_fraction",
@@ -148,7 +148,7 @@ class Curvature:
         """Return the curvature of which a file holds this."""
         if "reason" in result:
             return cls.without(result["reason"])
-        return cls(**{name: Interval.read(result, name) for name in _BENDS})
+        return cls(*(Interval.read(result, name) for name in _BENDS))
 
 
 @dataclass(frozen=True)
@@ -206,8 +206,8 @@ class EndState:
         [Pa]
     elastic_energy_density : float
         [J/m3]
-    median_overlap_ratio : float
-        Overlap over branch length [-].
+    median_overlap_over_length : float
+        Overlap over branch length [-]; that over the smaller radius is another.
     coordination_number, mechanical_coordination_number, rattler_fraction : float
         [-]
     """
@@ -218,7 +218,7 @@ class EndState:
     jamming_solid_fraction: float
     mean_stress: float
     elastic_energy_density: float
-    median_overlap_ratio: float
+    median_overlap_over_length: float
     coordination_number: float
     mechanical_coordination_number: float
     rattler_fraction: float
@@ -301,7 +301,7 @@ class EnergySplitFit:
             cubic_slope=_NAN,
             cubic_r_squared=_NAN,
             end=nothing,
-            near_jamming=None,
+            near_jamming=nothing,
             reason=reason,
         )
 
@@ -310,7 +310,6 @@ class EnergySplitFit:
         packings = {} if self.packings is None else self.packings.result()
         if self.reason is not None:
             return {**packings, "reason": self.reason}
-        near = self.near_jamming
         return {
             **self.exponent.named("exponent"),
             "confidence": self.confidence,
@@ -322,7 +321,7 @@ class EnergySplitFit:
             "cubic_slope": self.cubic_slope,
             "cubic_r_squared": self.cubic_r_squared,
             **self.end.result(),
-            **({} if near is None else {"near_jamming": near.result()}),
+            **({} if self.near_jamming is None else {"near_jamming": self.near_jamming.result()}),
         }
 
     @classmethod

@@ -1,7 +1,10 @@
 """Convergence: the same packings with twice the strain steps, and what that changes."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from branchcrush.errors import FitError
 from branchcrush.samples.ensemble import certified_loading
@@ -26,7 +29,11 @@ _COLUMNS = (
 )
 
 
-def convergence_table(certificates, once, twice):
+def convergence_table(
+    certificates: Sequence[pd.DataFrame],
+    once: tuple[Sequence[pd.DataFrame], Sequence[NDArray]],
+    twice: tuple[Sequence[pd.DataFrame], Sequence[NDArray]],
+) -> pd.DataFrame:
     """Return the quantities at the end of the loading with the steps asked for and with twice.
 
     Parameters
@@ -35,7 +42,7 @@ def convergence_table(certificates, once, twice):
         `certificate.csv` of both runs, or none when no seed was run twice.
     once, twice : tuple of (list of DataFrame, list of ndarray)
         The path of each seed run twice, and its binned energies at the end of its loading, as
-        `samples.energy_split.state_sums`.
+        `samples.seed_branches.state_sums`.
 
     Returns
     -------

@@ -1,83 +1,88 @@
-"""The branches of the seeds: what is kept of their contacts, and the exponents of all together.
+"""Rule energy_split: the energy split of the branches of all seeds, and its exponent."""
 
-Contacts are many, so each seed's are read, reduced to what the results need, and let go.
-"""
-
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from branchcrush.energy.fit import Curvature, EndState, EnergySplitFit, StateFit
-from branchcrush.energy.predictors import branch_columns, compared_predictors, curvature
+from branchcrush.energy.predictors import compared_predictors, curvature
 from branchcrush.energy.split import cubic_r_squared, energy_split
 from branchcrush.errors import FitError
-from branchcrush.packings.network import state_rows
-from branchcrush.samples.ensemble import mean_path, named_states
-from branchcrush.statistics.bins import binned_sums
+from branchcrush.files.tables import no_data
+from branchcrush.gradings.distribution import Grading
+from branchcrush.samples.ensemble import certified_loading, mean_path, named_states
+from branchcrush.samples.seed_branches import Branches, seed_branches
+from branchcrush.statistics.bins import bin_edges
 from branchcrush.statistics.intervals import Interval, Resampling
 from branchcrush.statistics.power_law import binned_exponent
 
-# The columns of a contacts table that energies by length need, and those that all of it needs.
-ENERGY_COLUMNS = ("state", "radius_i_m", "radius_j_m", "energy_J")
-COLUMNS = (*ENERGY_COLUMNS, "branch_length_m", "overlap_m")
 
-
-class Branches(NamedTuple):
-    """The branches of one seed in some of its states, in their order."""
-
-    sums: np.ndarray  # `statistics.bins.binned_sums` of each state, shape (states, 3, n)
-    overlap_ratio: list[np.ndarray]  # overlap over distance of the centres, in each state [-]
-    # Every branch of the first state and of the last, as `energy.predictors.branch_columns`: those
-    # between are many, and what they say of the exponent is in the sums.
-    first: tuple
-    last: tuple
-
-
-def seed_branches(contacts, states, edges):
-    """Return what the results of a sample need of the contacts of one seed.
+def energy_split_results(
+    grading: Grading,
+    certificate: pd.DataFrame,
+    paths: Sequence[pd.DataFrame],
+    jamming: pd.DataFrame,
+    read_seed: Callable[[int], pd.DataFrame],
+    *,
+    bins: int,
+    confidence: float,
+    resamples: int,
+) -> tuple[dict, EnergySplitFit]:
+    """Return the energy split at the end of the loading, and its exponent along it.
 
     Parameters
     ----------
-    contacts : DataFrame
-        `contacts.parquet`, of it at least `COLUMNS`.
-    states : array_like of int
-        In increasing order.
-    edges : array_like, shape (n+1,)
-        Bin edges [m].
+    grading : Grading
+        Target.
+    certificate : DataFrame
+        `certificate.csv`.
+    paths : list of DataFrame
+        The `path.csv` of each seed.
+    jamming : DataFrame
+        `jamming.csv`.
+    read_seed : callable
+        Takes the number of a seed, from 0; returns its `contacts.parquet`, at least
+        `samples.seed_branches.COLUMNS`. Called for one seed after the other.
+    bins : int
+        Of branch length.
+    confidence, resamples
+        As for `final_energy_split`.
 
     Returns
     -------
-    Branches
-        It holds no part of the table.
+    tables : dict
+        table, of `final_energy_split`, and path, of `exponents_along_path`; or why there are none.
+    fit : EnergySplitFit
+        With the reason, and what is known of the packings, where there is no energy split.
     """
-    tables = _of_states(contacts, states)
-    ratios = [
-        table["overlap_m"].to_numpy() / table["branch_length_m"].to_numpy() for table in tables
-    ]
-    sums = np.stack([_sums(table, edges) for table in tables])
-    return Branches(sums, ratios, *(_columns(tables[number], edges) for number in (0, -1)))
+    options = {"confidence": confidence, "resamples": resamples}
+    edges = bin_edges(*grading.support(), bins)
+    packings = None
+    try:
+        used, paths = certified_loading(certificate, paths)
+        states = paths[0]["state"]
+        branches = [seed_branches(read_seed(number), states, edges) for number in used]
+        mean_jamming = jamming["jamming_solid_fraction_loading"].iloc[used].mean()
+        packings = end_state(branches, paths, mean_jamming)
+        table, fit = final_energy_split(branches, paths, edges, packings, **options)
+        along = exponents_along_path(branches, paths, mean_jamming, **options)
+    except FitError as error:
+        table, _ = no_data(error)
+        return {"table": table, "path": table}, EnergySplitFit.without(str(error), packings)
+    return {"table": table, "path": along}, fit
 
 
-def state_sums(contacts, state, edges):
-    """Return the binned energies of one state of a seed, as `statistics.bins.binned_sums`.
-
-    Parameters
-    ----------
-    contacts : DataFrame
-        `contacts.parquet`, of it at least `ENERGY_COLUMNS`.
-    state : int
-    edges : array_like, shape (n+1,)
-        Bin edges [m].
-
-    Returns
-    -------
-    ndarray, shape (3, n)
-    """
-    return _sums(*_of_states(contacts, [state]), edges)
-
-
-def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples):
+def final_energy_split(
+    branches: Sequence[Branches],
+    paths: Sequence[pd.DataFrame],
+    edges: NDArray,
+    packings: EndState,
+    *,
+    confidence: float,
+    resamples: int,
+) -> tuple[dict, EnergySplitFit]:
     """Return the bins and the fit of the energy split at the end of the path.
 
     Parameters
@@ -88,8 +93,8 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
         From `samples.ensemble.certified_loading`.
     edges : array_like, shape (n+1,)
         Bin edges [m].
-    jamming : float
-        Mean phi_J of the packings [-].
+    packings : EndState
+        From `end_state`.
     confidence : float
     resamples : int
         Draws of the seeds, always from the same random state.
@@ -98,18 +103,16 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
     -------
     table : dict of ndarray
         As `energy.split.energy_split`, with the edges of the bins.
-    fit : dict
-        From `energy.fit.EnergySplitFit`.
+    fit : EnergySplitFit
 
     Raises
     ------
     FitError
         When the energies bear no power law: too few branches, or all of one length.
     """
+    options = {"confidence": confidence, "resamples": resamples}
     sums = np.stack([seed.sums[-1] for seed in branches])
-    law, exponent = binned_exponent(
-        sums, confidence=confidence, resamples=resamples, rng=Resampling.EXPONENTS.rng()
-    )
+    law, exponent = binned_exponent(sums, rng=Resampling.EXPONENTS.rng(), **options)
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
@@ -120,16 +123,39 @@ def final_energy_split(branches, paths, edges, jamming, *, confidence, resamples
         reference_length=reference,
         exponent_of_each_seed=tuple(alone),
         mean_of_seed_exponents=float(np.mean(alone)),
-        packings=end_state(branches, paths, jamming),
+        packings=packings,
         cubic_slope=slope,
         cubic_r_squared=r_squared,
-        end=_state_fit([seed.last for seed in branches], confidence, resamples),
-        near_jamming=_first_state_fit(branches, paths, confidence, resamples),
+        end=_state_fit([seed.last for seed in branches], options),
+        near_jamming=_first_state_fit(branches, paths, options),
     )
-    return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit.result()
+    return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
 
 
-def end_state(branches, paths, jamming):
+def _first_state_fit(branches, paths, options):
+    row = named_states(paths[0]).get("near_jamming")
+    if row is None:
+        return None
+    return _state_fit(
+        [seed.first for seed in branches],
+        options,
+        state=int(paths[0]["state"].iloc[row]),
+        solid_fraction=float(np.mean([path["solid_fraction"].iloc[row] for path in paths])),
+    )
+
+
+def _state_fit(seeds, options, **place):
+    predictors = compared_predictors(seeds, **options)
+    try:
+        bend = curvature(seeds, **options)
+    except FitError as error:
+        bend = Curvature.without(str(error))
+    return StateFit(predictors, bend, **place)
+
+
+def end_state(
+    branches: Sequence[Branches], paths: Sequence[pd.DataFrame], jamming: float
+) -> EndState:
     """Return what the packings are like at the end of their loading, means over the seeds.
 
     Parameters
@@ -153,31 +179,36 @@ def end_state(branches, paths, jamming):
         jamming_solid_fraction=float(jamming),
         mean_stress=float(ends["mean_stress_Pa"].mean()),
         elastic_energy_density=float((ends["elastic_energy_J"] / ends["volume_m3"]).mean()),
-        median_overlap_ratio=_median_overlap_ratio(branches, -1),
+        median_overlap_over_length=_median_overlap_over_length(branches, -1),
         coordination_number=float(ends["coordination_number"].mean()),
         mechanical_coordination_number=float(ends["mechanical_coordination_number"].mean()),
         rattler_fraction=float(ends["rattler_fraction"].mean()),
     )
 
 
-def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
+def exponents_along_path(
+    branches: Sequence[Branches],
+    paths: Sequence[pd.DataFrame],
+    jamming: float,
+    *,
+    confidence: float,
+    resamples: int,
+) -> pd.DataFrame:
     """Return the exponent of the energy split in every loaded state.
 
     Parameters
     ----------
-    branches : list of Branches
-        Of each seed, in the states of the paths.
-    paths : list of DataFrame
-        From `samples.ensemble.certified_loading`.
-    jamming, confidence, resamples
+    branches, paths, confidence, resamples
         As for `final_energy_split`.
+    jamming : float
+        Mean phi_J of the packings [-].
 
     Returns
     -------
     DataFrame
         A row for each state: state, solid_fraction, the same less phi_J, mean_stress_Pa,
-        median_overlap_ratio (overlap over branch length), branches, exponent, exponent_low,
-        exponent_high; nan where a state has too few branches for an exponent.
+        median_overlap_over_length, branches, exponent, exponent_low, exponent_high; nan where a
+        state has too few branches for an exponent.
     """
     rows = []
     for number, state in enumerate(mean_path(paths, jamming).to_dict("records")):
@@ -194,7 +225,7 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
         rows.append(
             {
                 **state,
-                "median_overlap_ratio": _median_overlap_ratio(branches, number),
+                "median_overlap_over_length": _median_overlap_over_length(branches, number),
                 "branches": int(sums[:, 0].sum()),
                 **exponent.named("exponent"),
             }
@@ -202,51 +233,6 @@ def exponents_along_path(branches, paths, jamming, *, confidence, resamples):
     return pd.DataFrame(rows)
 
 
-def _first_state_fit(branches, paths, confidence, resamples):
-    if "near_jamming" not in named_states(paths[0]):
-        return None
-    return _state_fit(
-        [seed.first for seed in branches],
-        confidence,
-        resamples,
-        state=int(paths[0]["state"].iloc[0]),
-        solid_fraction=_mean(path["solid_fraction"].iloc[0] for path in paths),
-    )
-
-
-def _state_fit(seeds, confidence, resamples, **place):
-    options = {"confidence": confidence, "resamples": resamples}
-    predictors = compared_predictors(seeds, **options)
-    try:
-        bend = curvature(seeds, **options)
-    except FitError as error:
-        bend = Curvature.without(str(error))
-    return StateFit(predictors, bend, **place)
-
-
-def _mean(values):
-    return float(np.mean(list(values)))
-
-
-def _of_states(contacts, states):
-    """Return the rows of each state as a table of its own."""
-    return [contacts.iloc[rows] for rows in state_rows(contacts["state"], states)]
-
-
-def _length(table):
-    # The paper's branch length, that of two spheres that just touch.
-    return table["radius_i_m"].to_numpy() + table["radius_j_m"].to_numpy()
-
-
-def _columns(table, edges):
-    radii = (table["radius_i_m"].to_numpy(), table["radius_j_m"].to_numpy())
-    return branch_columns(*radii, table["energy_J"].to_numpy(), edges[-1] / 2.0)
-
-
-def _sums(table, edges):
-    return binned_sums(_length(table), table["energy_J"].to_numpy(), edges)
-
-
-def _median_overlap_ratio(branches, number):
-    ratios = np.concatenate([seed.overlap_ratio[number] for seed in branches])
+def _median_overlap_over_length(branches, number):
+    ratios = np.concatenate([seed.overlap_over_length[number] for seed in branches])
     return float(np.median(ratios, overwrite_input=True)) if ratios.size else np.nan

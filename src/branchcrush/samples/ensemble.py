@@ -1,12 +1,14 @@
 """The seeds of a sample together: their loading paths, and which states a fit may use."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
 from branchcrush.errors import FitError
 
 
-def stacked(paths):
+def stacked(paths: Sequence[pd.DataFrame]) -> pd.DataFrame:
     """Return the loading paths of all seeds as one table.
 
     Parameters
@@ -18,13 +20,18 @@ def stacked(paths):
     -------
     DataFrame
         With a column `seed_number`, from 0.
+
+    Examples
+    --------
+    >>> stacked([pd.DataFrame({"state": [0, 1]})] * 2)["seed_number"].tolist()
+    [0, 0, 1, 1]
     """
     return pd.concat(
         [path.assign(seed_number=number) for number, path in enumerate(paths)], ignore_index=True
     )
 
 
-def end_of_loading(path):
+def end_of_loading(path: pd.DataFrame) -> pd.Series:
     """Return the row of the last state before any unloading.
 
     Parameters
@@ -45,7 +52,9 @@ def end_of_loading(path):
     return path[path["leg"] == "loading"].iloc[-1]
 
 
-def certified_loading(certificate, paths):
+def certified_loading(
+    certificate: pd.DataFrame, paths: Sequence[pd.DataFrame]
+) -> tuple[list[int], list[pd.DataFrame]]:
     """Return the certified states on the way in, of the seeds that are certified to its end.
 
     Parameters
@@ -67,6 +76,13 @@ def certified_loading(certificate, paths):
     ------
     FitError
         When there is no such seed: the sample gives no data for a fit.
+
+    Examples
+    --------
+    >>> path = pd.DataFrame({"state": [0, 1], "leg": ["loading", "loading"]})
+    >>> used, paths = certified_loading(path.assign(seed=7, certified=[False, True]), [path])
+    >>> used, paths[0]["state"].tolist()
+    ([0], [1])
     """
     usable = certificate["certified"] & (certificate["leg"] == "loading")
     certified = [
@@ -87,7 +103,7 @@ def certified_loading(certificate, paths):
     return used, [path[path["state"].isin(common)].reset_index(drop=True) for path in chosen]
 
 
-def on_the_way_in(paths, used):
+def on_the_way_in(paths: Sequence[pd.DataFrame], used: Sequence[int]) -> list[pd.DataFrame]:
     """Return the loading states of some seeds, with those before any load.
 
     Parameters
@@ -99,12 +115,18 @@ def on_the_way_in(paths, used):
     Returns
     -------
     list of DataFrame
+
+    Examples
+    --------
+    >>> path = pd.DataFrame({"state": [0, 1], "leg": ["loading", "unloading"]})
+    >>> [table["state"].tolist() for table in on_the_way_in([path, path], [1])]
+    [[0]]
     """
     loading = (paths[number] for number in used)
     return [path[path["leg"] == "loading"].reset_index(drop=True) for path in loading]
 
 
-def named_states(path):
+def named_states(path: pd.DataFrame) -> dict[str, int]:
     """Return which states the summaries tell of by a name: the first that all carry, and the last.
 
     Where the seeds share one state it is the end, and nothing is called near jamming.
@@ -130,7 +152,7 @@ def named_states(path):
     return end if len(path) == 1 else {"near_jamming": 0, **end}
 
 
-def mean_path(paths, jamming):
+def mean_path(paths: Sequence[pd.DataFrame], jamming: float) -> pd.DataFrame:
     """Return the states that the seeds share, with their means over the seeds.
 
     Parameters

@@ -1,14 +1,23 @@
-"""The crushing model of the paper on the elastic energy that was measured."""
+"""Rule thermodynamics: the crushing model of the paper on the elastic energy that was measured."""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from branchcrush.branches.lengths import random_contact_moment
-from branchcrush.crushing.elasticity import fit_elasticity
+from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
 from branchcrush.crushing.model import CrushingLaw, reference_energy, theta
 from branchcrush.crushing.path import crushing_path
-from branchcrush.errors import FitError
-from branchcrush.samples.ensemble import stacked
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.errors import AdmissibilityError, FitError
+from branchcrush.files.tables import no_data
+from branchcrush.gradings.curves import ultimate_grading
+from branchcrush.gradings.distribution import Grading
+from branchcrush.samples.ensemble import certified_loading, on_the_way_in, stacked
+from branchcrush.statistics.intervals import Interval
 
 _POINTS = 200
 # The unloading leg ends here, as a share of the largest strain.
@@ -16,7 +25,64 @@ _UNLOADED_TO = 0.6
 FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
-def measured_elasticity(paths):
+class MeasuredElasticity(NamedTuple):
+    """The elastic law of a sample before crushing."""
+
+    law: PowerLawElasticity
+    jamming: float  # phi_J [-]
+    r_squared: float  # of the energies [-]
+
+
+def crushing_results(
+    fit: EnergySplitFit,
+    certificate: pd.DataFrame,
+    paths: Sequence[pd.DataFrame],
+    initial: Grading,
+    *,
+    ultimate_alpha: float,
+    critical_energy: float,
+    hardening_exponent: float,
+) -> tuple[pd.DataFrame | dict, dict]:
+    """Return the curves of the crushing model with the measured exponent and elastic energy.
+
+    Parameters
+    ----------
+    fit : EnergySplitFit
+    certificate : DataFrame
+        `certificate.csv`.
+    paths : list of DataFrame
+        The `path.csv` of each seed.
+    initial : Grading
+        Target.
+    ultimate_alpha : float
+        Of the fractal grading that crushing leads to [-].
+    critical_energy, hardening_exponent : float
+        As for `crushing_curves`.
+
+    Returns
+    -------
+    curves : DataFrame
+        From `crushing_curves`, or why there are none.
+    summary : dict
+    """
+    try:
+        if fit.reason is not None:
+            raise FitError(fit.reason)
+        used, _ = certified_loading(certificate, paths)
+        return crushing_curves(
+            on_the_way_in(paths, used),
+            fit.exponent,
+            initial,
+            ultimate_grading(initial, ultimate_alpha),
+            fit.reference_length,
+            critical_energy,
+            hardening_exponent,
+        )
+    except (FitError, AdmissibilityError) as error:
+        return no_data(error)
+
+
+def measured_elasticity(paths: Sequence[pd.DataFrame]) -> MeasuredElasticity:
     r"""Fit the elastic law to the energy per volume of all seeds along the loading path.
 
     .. math:: \Psi_0 = \frac{A}{m+1} \epsilon^{m+1}, \quad \epsilon = 1 - \phi_J/\phi
@@ -31,11 +97,7 @@ def measured_elasticity(paths):
 
     Returns
     -------
-    elasticity : PowerLawElasticity
-    jamming : float
-        phi_J [-].
-    r_squared : float
-        Of the energies.
+    MeasuredElasticity
 
     Raises
     ------
@@ -51,19 +113,28 @@ def measured_elasticity(paths):
         raise FitError(f"no elastic law in the loading path: {error}") from error
     fitted = phi / jamming * elasticity.energy(1.0 - jamming / phi)
     residual = np.sum((density - fitted) ** 2)
-    return elasticity, jamming, float(1.0 - residual / np.sum((density - density.mean()) ** 2))
+    r_squared = float(1.0 - residual / np.sum((density - density.mean()) ** 2))
+    return MeasuredElasticity(elasticity, jamming, r_squared)
 
 
 def crushing_curves(
-    paths, exponent, initial, ultimate, reference_length, critical_energy, hardening_exponent
-):
-    """Return the curves of the crushing model without branch density, and their summary.
+    paths: Sequence[pd.DataFrame],
+    exponent: Interval,
+    initial: Grading,
+    ultimate: Grading | None,
+    reference_length: float,
+    critical_energy: float,
+    hardening_exponent: float,
+) -> tuple[pd.DataFrame, dict]:
+    r"""Return the curves of the crushing model without branch density, and their summary.
+
+    .. math:: \psi_r = \Psi_0\, l_r^n / \langle l^n \rangle_0
 
     Parameters
     ----------
     paths : list of DataFrame
         A `path.csv` for each seed.
-    exponent : intervals.Interval
+    exponent : Interval
         n of the energy split.
     initial, ultimate : Grading
         Gradings on a common support; no ultimate one (None) for a single size.
@@ -89,76 +160,57 @@ def crushing_curves(
     """
     if ultimate is None:
         raise FitError("grains of a single size have no finer grading of their range to crush to")
-    elasticity, jamming, r_squared = measured_elasticity(paths)
+    measured = measured_elasticity(paths)
     n = exponent.estimate
     moments = [random_contact_moment(grading, n) for grading in (initial, ultimate)]
-    share = theta(*moments)
-    law = CrushingLaw(share, critical_energy, hardening_exponent)
-    largest = 1.0 - jamming / max(path["solid_fraction"].max() for path in paths)
-    loading = np.linspace(0.0, largest, _POINTS + 1)
-    strain = np.append(loading, np.linspace(largest, _UNLOADED_TO * largest, _POINTS // 4)[1:])
-    path = crushing_path(strain, elasticity, share, critical_energy, hardening_exponent)
-    curves = [
-        _curve(
-            "crushing",
-            path,
-            reference_energy(path.elastic_energy, moments[0], n, reference_length),
-        )
-    ]
-    for crushing in FIXED_CRUSHING:
-        energy = elasticity.energy(loading)
-        curves.append(
-            pd.DataFrame(
-                {
-                    "path": "fixed",
-                    "volumetric_strain": loading,
-                    "crushing": crushing,
-                    "elastic_energy_J_per_m3": energy,
-                    "reference_energy_J_per_m3": reference_energy(
-                        energy, moments[0], n, reference_length
-                    ),
-                    "free_energy_J_per_m3": law.free_energy(crushing, energy),
-                    "stress_Pa": law.stress(crushing, elasticity.pressure(loading)),
-                    "driving_force_J_per_m3": law.driving_force(energy),
-                }
-            )
-        )
-    bound = law.least_hardening_exponent(elasticity.exponent)
-    yield_strain = float(law.yield_strain(elasticity))
+    law = CrushingLaw(theta(*moments), critical_energy, hardening_exponent)
+    largest = 1.0 - measured.jamming / max(path["solid_fraction"].max() for path in paths)
+
+    def reference(energy):
+        return reference_energy(energy, moments[0], n, reference_length)
+
+    crushing = _crushing_curve(measured.law, law, largest, reference)
+    fixed = _fixed_curves(measured.law, law, largest, reference)
     summary = {
         "form": "paper, without branch density",
         **exponent.named("exponent"),
-        "theta": share,
+        "theta": law.theta,
         "initial_moment": moments[0],
         "ultimate_moment": moments[1],
         "admissible": True,
         "reference_length_m": reference_length,
-        "elastic_modulus_Pa": elasticity.modulus,
-        "elastic_exponent": elasticity.exponent,
-        "elastic_r_squared": r_squared,
-        "jamming_solid_fraction": jamming,
-        "jamming_on_path": bool(jamming > max(path["solid_fraction"][1] for path in paths)),
-        "largest_strain": largest,
-        "critical_energy_J_per_m3": critical_energy,
-        "hardening_exponent": hardening_exponent,
-        "least_hardening_exponent": bound,
-        "hardens_at_onset": bool(hardening_exponent >= bound),
-        "yield_strain": yield_strain,
-        "yield_stress_Pa": float(elasticity.pressure(yield_strain)),
-        "yields_on_path": bool(yield_strain < largest),
-        "crushing_at_end": float(path.crushing[_POINTS]),
+        "elastic_modulus_Pa": measured.law.modulus,
+        "elastic_exponent": measured.law.exponent,
+        "elastic_r_squared": measured.r_squared,
+        "jamming_solid_fraction": measured.jamming,
+        "jamming_on_path": bool(
+            measured.jamming > max(path["solid_fraction"][1] for path in paths)
+        ),
+        **_yield(measured.law, law, largest),
+        "crushing_at_end": float(crushing["crushing"][_POINTS]),
     }
-    return pd.concat(curves, ignore_index=True), summary
+    return pd.concat([crushing, *fixed], ignore_index=True), summary
 
 
-def _curve(name, path, reference):
+def _crushing_curve(
+    elasticity: PowerLawElasticity,
+    law: CrushingLaw,
+    largest: float,
+    reference: Callable[[NDArray], NDArray],
+) -> pd.DataFrame:
+    """Return the way to the largest strain and some of the way back, with C evolving."""
+    loading = np.linspace(0.0, largest, _POINTS + 1)
+    back = np.linspace(largest, _UNLOADED_TO * largest, _POINTS // 4)[1:]
+    path = crushing_path(
+        np.append(loading, back), elasticity, law.theta, law.critical_energy, law.hardening_exponent
+    )
     return pd.DataFrame(
         {
-            "path": name,
+            "path": "crushing",
             "volumetric_strain": path.strain,
             "crushing": path.crushing,
             "elastic_energy_J_per_m3": path.elastic_energy,
-            "reference_energy_J_per_m3": reference,
+            "reference_energy_J_per_m3": reference(path.elastic_energy),
             "free_energy_J_per_m3": path.stored,
             "stress_Pa": path.stress,
             "driving_force_J_per_m3": path.driving_force,
@@ -167,3 +219,45 @@ def _curve(name, path, reference):
             "work_J_per_m3": path.work,
         }
     )
+
+
+def _fixed_curves(
+    elasticity: PowerLawElasticity,
+    law: CrushingLaw,
+    largest: float,
+    reference: Callable[[NDArray], NDArray],
+) -> list[pd.DataFrame]:
+    """Return the way to the largest strain at each of `FIXED_CRUSHING`."""
+    strain = np.linspace(0.0, largest, _POINTS + 1)
+    energy = elasticity.energy(strain)
+    return [
+        pd.DataFrame(
+            {
+                "path": "fixed",
+                "volumetric_strain": strain,
+                "crushing": crushing,
+                "elastic_energy_J_per_m3": energy,
+                "reference_energy_J_per_m3": reference(energy),
+                "free_energy_J_per_m3": law.free_energy(crushing, energy),
+                "stress_Pa": law.stress(crushing, elasticity.pressure(strain)),
+                "driving_force_J_per_m3": law.driving_force(energy),
+            }
+        )
+        for crushing in FIXED_CRUSHING
+    ]
+
+
+def _yield(elasticity, law, largest):
+    """Return where crushing begins, and whether it hardens there and does so on the path."""
+    bound = law.least_hardening_exponent(elasticity.exponent)
+    strain = float(law.yield_strain(elasticity))
+    return {
+        "largest_strain": largest,
+        "critical_energy_J_per_m3": law.critical_energy,
+        "hardening_exponent": law.hardening_exponent,
+        "least_hardening_exponent": bound,
+        "hardens_at_onset": bool(law.hardening_exponent >= bound),
+        "yield_strain": strain,
+        "yield_stress_Pa": float(elasticity.pressure(strain)),
+        "yields_on_path": bool(strain < largest),
+    }

@@ -1,11 +1,14 @@
 """The way back: how much of the work a packing returns, and what it keeps."""
 
+from collections.abc import Sequence
+
 import numpy as np
+import pandas as pd
 
 from branchcrush.samples.ensemble import end_of_loading
 
 
-def unloading_summary(paths, jamming):
+def unloading_summary(paths: Sequence[pd.DataFrame], jamming: pd.DataFrame) -> dict | None:
     """Return how elastic the way back was, means over the packings.
 
     Parameters

@@ -31,7 +31,7 @@ def comparison_row(name, fit, model, certificate):
         "jamming_uncertainty_of_one": certificate["jamming_uncertainty"],
         "mean_stress_Pa": fit.get("mean_stress_Pa"),
         "elastic_energy_J_per_m3": fit.get("elastic_energy_J_per_m3"),
-        "median_overlap_ratio": fit.get("median_overlap_ratio"),
+        "median_overlap_over_length": fit.get("median_overlap_over_length"),
         "coordination_number": fit.get("coordination_number"),
         "mechanical_coordination_number": fit.get("mechanical_coordination_number"),
         "rattler_fraction": fit.get("rattler_fraction"),

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -49,7 +50,7 @@ WRITTEN = """{
   "exponent_of_each_seed": [3.1, 3.2], "mean_of_seed_exponents": 3.15,
   "seeds": 16, "branches": 43235, "solid_fraction": 0.74, "jamming_solid_fraction": 0.6,
   "mean_stress_Pa": 45000000.0, "elastic_energy_J_per_m3": 4100000.0,
-  "median_overlap_ratio": 0.027, "coordination_number": 5.4,
+  "median_overlap_over_length": 0.027, "coordination_number": 5.4,
   "mechanical_coordination_number": 7.8, "rattler_fraction": 0.25,
   "cubic_slope": 1.06, "cubic_r_squared": 0.994,
   "predictors": [
@@ -104,6 +105,14 @@ def test_missing_numbers_are_null_in_the_file_and_nan_when_read(tmp_path):
     read = FittedPredictor.read(held)
     assert repr(read) == repr(one_seed)
     assert math.isnan(read.explained.estimate)
+
+
+def test_fit_whose_first_loaded_state_is_its_end_has_none_near_jamming():
+    alone = replace(FIT, near_jamming=None)
+    held = json.loads(WRITTEN)
+    del held["near_jamming"]
+    assert json.dumps(alone.result()) == json.dumps(held)
+    assert EnergySplitFit.read(held).near_jamming is None
 
 
 @pytest.mark.parametrize("packings", [None, END])

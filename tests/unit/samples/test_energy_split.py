@@ -1,7 +1,4 @@
-"""The branches of the seeds, on contacts whose energies follow a known law exactly."""
-
-import gc
-import weakref
+"""The energy split of all seeds, on contacts whose energies follow a known law exactly."""
 
 import numpy as np
 import pandas as pd
@@ -11,47 +8,21 @@ from numpy.testing import assert_allclose, assert_array_equal
 from branchcrush.energy.predictors import log_length
 from branchcrush.errors import FitError
 from branchcrush.samples.energy_split import (
-    COLUMNS,
-    ENERGY_COLUMNS,
+    end_state,
     exponents_along_path,
     final_energy_split,
-    seed_branches,
-    state_sums,
 )
-from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.bins import binned_sums
 from branchcrush.statistics.power_law import power_law_fit
+from tests.unit.samples.exact_contacts import (
+    AMPLITUDE,
+    CENTRES,
+    EDGES,
+    branches_of,
+    contacts_of,
+)
 
-RADIUS_MAX, STIFFNESS, AMPLITUDE = 1e-3, 1e6, 50.0
-EDGES = bin_edges(5e-6, RADIUS_MAX, 20)
-CENTRES = (EDGES[1:] + EDGES[:-1]) / 2
-SETTINGS = {"jamming": 0.65, "confidence": 0.95, "resamples": 200}
-
-
-def contacts_of(seed, exponents):
-    """Return a contacts table: a state for each exponent, with energies A l^n exactly.
-
-    The lengths of a bin are equal, so that bin means follow the law as the branches do.
-    """
-    rng = np.random.default_rng(seed)
-    states = []
-    for state, exponent in enumerate(exponents):
-        length = np.sort(rng.choice(CENTRES, 300 + 10 * seed + 100 * state))
-        share = rng.uniform(0.2, 0.8, length.size)
-        energy = AMPLITUDE * length**exponent
-        force = np.sqrt(2 * STIFFNESS * energy)
-        table = {
-            "state": state,
-            "i": 0,
-            "j": 1,
-            "radius_i_m": share * length,
-            "radius_j_m": length - share * length,
-            "branch_length_m": length - force / STIFFNESS,
-            "overlap_m": force / STIFFNESS,
-            "normal_force_N": force,
-            "energy_J": energy,
-        }
-        states.append(pd.DataFrame(table))
-    return pd.concat(states, ignore_index=True)
+JAMMING, OPTIONS = 0.65, {"confidence": 0.95, "resamples": 200}
 
 
 def path_of(*states, solid_fraction=0.7):
@@ -70,8 +41,15 @@ def path_of(*states, solid_fraction=0.7):
     )
 
 
-def branches_of(contacts, *states):
-    return [seed_branches(table, states, EDGES) for table in contacts]
+def split_of(branches, paths):
+    """Return the bins and what `energy_split.json` holds."""
+    packings = end_state(branches, paths, JAMMING)
+    table, fit = final_energy_split(branches, paths, EDGES, packings, **OPTIONS)
+    return table, fit.result()
+
+
+def exponents_of(branches, paths):
+    return exponents_along_path(branches, paths, JAMMING, **OPTIONS)
 
 
 @pytest.fixture
@@ -86,70 +64,12 @@ def sample(contacts):
     return branches_of(contacts, 1, 2), paths
 
 
-# --- what is kept of the contacts ----------------------------------------------------------------
-
-
-def test_sums_are_binned_state_by_state(contacts):
-    for seed, found in enumerate(branches_of(contacts, 1, 2)):
-        assert found.sums.shape == (2, 3, 20)
-        for sums, state in zip(found.sums, (1, 2), strict=True):
-            rows = contacts[seed][contacts[seed]["state"] == state]
-            length = rows["radius_i_m"] + rows["radius_j_m"]
-            assert_array_equal(sums, binned_sums(length, rows["energy_J"], EDGES))
-            assert_array_equal(state_sums(contacts[seed], state, EDGES), sums)
-        assert found.sums[:, 0].sum(axis=1).tolist() == [400 + 10 * seed, 500 + 10 * seed]
-
-
-def test_branches_of_the_first_and_last_state_are_kept_one_by_one(contacts):
-    found = seed_branches(contacts[1], [0, 2], EDGES)
-    last = contacts[1][contacts[1]["state"] == 2]
-    small, large, energy = found.last
-    radii = np.sort(last[["radius_i_m", "radius_j_m"]], axis=1) / (EDGES[-1] / 2.0)
-    assert_allclose(np.exp([small, large]), radii.T, rtol=1e-14)
-    assert_array_equal(energy, last["energy_J"])
-    assert found.first[2].size == 310
-    assert [ratio.size for ratio in found.overlap_ratio] == [310, 510]
-    assert_array_equal(found.overlap_ratio[1], last["overlap_m"] / last["branch_length_m"])
-
-
-def test_state_without_contacts_has_sums_of_zero_and_no_lengths(contacts):
-    table = contacts[0][contacts[0]["state"] != 1]
-    assert not state_sums(table, 1, EDGES).any()
-    found = seed_branches(table, [0, 1, 2], EDGES)
-    assert found.sums[:, 0].sum(axis=1).tolist() == [300, 0, 500]
-    assert not found.overlap_ratio[1].size
-
-
-def test_named_columns_are_all_that_is_needed(contacts):
-    assert_array_equal(
-        state_sums(contacts[0][[*ENERGY_COLUMNS]], 2, EDGES), state_sums(contacts[0], 2, EDGES)
-    )
-    assert seed_branches(contacts[0][[*COLUMNS]], [2], EDGES).last[2].size == 500
-
-
-def test_what_is_kept_holds_no_part_of_the_table():
-    table = contacts_of(0, [2.0, 3.0])
-    # The arrays behind the columns, which any part of them would keep.
-    held = [weakref.ref(_owner(table[name].to_numpy())) for name in COLUMNS]
-    kept = seed_branches(table, [0, 1], EDGES)
-    del table
-    gc.collect()
-    assert kept.last[2].size == 400
-    assert not any(reference() is not None for reference in held)
-
-
-def _owner(array):
-    while array.base is not None:
-        array = array.base
-    return array
-
-
 def test_seed_by_seed_gives_what_all_contacts_at_once_give(sample, contacts):
     # The same from all contacts in one table.
     ends = pd.concat([table[table["state"] == 2] for table in contacts])
     length = ends["radius_i_m"] + ends["radius_j_m"]
     branches, paths = sample
-    table, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
+    table, fit = split_of(branches, paths)
     counts, lengths, energies = binned_sums(length, ends["energy_J"], EDGES)
     assert_array_equal(table["branches"], counts)
     assert_allclose(table["branch_length_m"], lengths / counts, rtol=1e-13)
@@ -164,8 +84,8 @@ def test_drawn_energies_give_back_the_exponent_and_an_interval_that_holds_it():
     for table in contacts:
         table["energy_J"] *= rng.standard_exponential(len(table))
     branches, paths = branches_of(contacts, 0, 1), [path_of(0, 1)] * 8
-    _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
-    along = exponents_along_path(branches, paths, **SETTINGS)
+    _, fit = split_of(branches, paths)
+    along = exponents_of(branches, paths)
     assert (along["exponent_low"] < 2.6).all()
     assert (along["exponent_high"] > 2.6).all()
     lengths = np.concatenate([log_length(*seed.last[:2]) for seed in branches])
@@ -178,7 +98,7 @@ def test_drawn_energies_give_back_the_exponent_and_an_interval_that_holds_it():
 
 
 def test_exact_cubic_energies_give_an_exponent_of_3_however_it_is_found(sample):
-    _, fit = final_energy_split(*sample, EDGES, **SETTINGS)
+    _, fit = split_of(*sample)
     found = [fit["exponent"], fit["exponent_low"], fit["exponent_high"]]
     found += [*fit["exponent_of_each_seed"], fit["mean_of_seed_exponents"]]
     found += [fit["predictors"][0]["exponent"], fit["curvature"]["slope_at_90_percent"]]
@@ -192,7 +112,7 @@ def test_first_state_with_energy_in_hardly_a_seed_leaves_the_fit_of_the_last(con
     # Close to jamming one packing may carry load and the others not yet.
     kept = [table[(table["state"] != 1) | (seed < loaded)] for seed, table in enumerate(contacts)]
     paths = [path_of(1, 2)] * 3
-    _, fit = final_energy_split(branches_of(kept, 1, 2), paths, EDGES, **SETTINGS)
+    _, fit = split_of(branches_of(kept, 1, 2), paths)
     assert fit["exponent"] == pytest.approx(3.0, abs=1e-9)
     near = fit["near_jamming"]["predictors"]
     assert all(("reason" in entry) != ("left_out_reason" in entry) for entry in near)
@@ -201,7 +121,7 @@ def test_first_state_with_energy_in_hardly_a_seed_leaves_the_fit_of_the_last(con
 
 def test_fit_says_what_it_is_made_from(sample, contacts):
     branches, paths = sample
-    _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
+    _, fit = split_of(branches, paths)
     assert (fit["seeds"], fit["branches"], fit["confidence"]) == (3, 500 + 510 + 520, 0.95)
     assert_allclose(fit["solid_fraction"], 0.721, rtol=1e-14)
     assert (fit["jamming_solid_fraction"], fit["mean_stress_Pa"]) == (0.65, 2e5)
@@ -212,11 +132,11 @@ def test_fit_says_what_it_is_made_from(sample, contacts):
     assert fit["rattler_fraction"] == pytest.approx(0.1, rel=1e-14)
     ends = pd.concat([table[table["state"] == 2] for table in contacts])
     ratio = np.median(ends["overlap_m"] / ends["branch_length_m"])
-    assert_allclose(fit["median_overlap_ratio"], ratio, rtol=1e-14)
+    assert_allclose(fit["median_overlap_over_length"], ratio, rtol=1e-14)
 
 
 def test_table_holds_the_bins_and_the_split_relative_to_the_largest_radius(sample):
-    table, fit = final_energy_split(*sample, EDGES, **SETTINGS)
+    table, fit = split_of(*sample)
     assert_array_equal(table["length_low_m"], EDGES[:-1])
     assert_array_equal(table["length_high_m"], EDGES[1:])
     assert table["branches"].sum() == fit["branches"]
@@ -231,7 +151,7 @@ def test_seeds_of_different_exponents_are_listed_and_widen_the_interval(sample):
     _, paths = sample
     contacts = [contacts_of(0, [1.0, 2.0, exponent]) for exponent in (2.9, 3.0, 3.1)]
     branches = branches_of(contacts, 1, 2)
-    _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
+    _, fit = split_of(branches, paths)
     assert_allclose(fit["exponent_of_each_seed"], [2.9, 3.0, 3.1], atol=1e-9)
     assert fit["mean_of_seed_exponents"] == pytest.approx(3.0, abs=1e-9)
     assert fit["exponent_low"] < 2.9
@@ -242,24 +162,22 @@ def test_seeds_of_different_exponents_are_listed_and_widen_the_interval(sample):
 
 def test_one_seed_gives_a_fit_without_an_interval():
     branches, paths = branches_of([contacts_of(0, [3.0])], 0), [path_of(0)]
-    _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
+    _, fit = split_of(branches, paths)
     assert fit["exponent"] == pytest.approx(3.0, abs=1e-9)
     assert np.isnan([fit["exponent_low"], fit["exponent_high"]]).all()
 
 
 def test_one_state_is_the_end_and_not_near_jamming(contacts):
-    _, fit = final_energy_split(branches_of(contacts, 2), [path_of(2)] * 3, EDGES, **SETTINGS)
+    _, fit = split_of(branches_of(contacts, 2), [path_of(2)] * 3)
     assert "near_jamming" not in fit
-    _, fit = final_energy_split(branches_of(contacts, 1, 2), [path_of(1, 2)] * 3, EDGES, **SETTINGS)
+    _, fit = split_of(branches_of(contacts, 1, 2), [path_of(1, 2)] * 3)
     assert fit["near_jamming"]["state"] == 1
 
 
 def test_same_tables_give_the_same_result():
     branches = branches_of([contacts_of(seed, [2.8 + 0.1 * seed]) for seed in range(4)], 0)
     paths = [path_of(0)] * 4
-    (table, fit), (other_table, other_fit) = (
-        final_energy_split(branches, paths, EDGES, **SETTINGS) for _ in range(2)
-    )
+    (table, fit), (other_table, other_fit) = (split_of(branches, paths) for _ in range(2))
     # As text: there is no interval where all energies are exact, and nan differs from itself.
     assert repr(fit) == repr(other_fit)
     for name in table:
@@ -272,14 +190,14 @@ def test_branches_of_one_length_bear_no_exponent(sample, contacts):
         table.assign(radius_i_m=CENTRES[9] / 2, radius_j_m=CENTRES[9] / 2) for table in contacts
     ]
     with pytest.raises(FitError, match="two or more branch lengths"):
-        final_energy_split(branches_of(same, 1, 2), paths, EDGES, **SETTINGS)
+        split_of(branches_of(same, 1, 2), paths)
 
 
 # --- along the path ------------------------------------------------------------------------------
 
 
 def test_exponent_is_followed_along_the_loaded_states(sample):
-    along = exponents_along_path(*sample, **SETTINGS)
+    along = exponents_of(*sample)
     assert along["state"].tolist() == [1, 2]
     for name in ("exponent", "exponent_low", "exponent_high"):
         assert_allclose(along[name], [2.0, 3.0], rtol=0, atol=1e-9)
@@ -287,7 +205,7 @@ def test_exponent_is_followed_along_the_loaded_states(sample):
     assert_allclose(along["solid_fraction"], [0.711, 0.721], rtol=1e-14)
     assert_allclose(along["solid_fraction_above_jamming"], [0.061, 0.071], rtol=1e-12)
     assert_allclose(along["mean_stress_Pa"], [1e5, 2e5], rtol=1e-14)
-    assert along["median_overlap_ratio"].is_monotonic_decreasing
+    assert along["median_overlap_over_length"].is_monotonic_decreasing
 
 
 def test_state_with_too_few_branches_has_no_exponent_and_the_others_keep_theirs(sample, contacts):
@@ -295,7 +213,7 @@ def test_state_with_too_few_branches_has_no_exponent_and_the_others_keep_theirs(
     # One length alone is left in state 1, as close to jamming.
     few = [table[table["state"] == 2] for table in contacts]
     few[0] = pd.concat([contacts[0][contacts[0]["state"] == 1][:1], few[0]])
-    along = exponents_along_path(branches_of(few, 1, 2), paths, **SETTINGS)
+    along = exponents_of(branches_of(few, 1, 2), paths)
     assert along["state"].tolist() == [1, 2]
     assert along.loc[0, ["exponent", "exponent_low", "exponent_high"]].isna().all()
     assert along["exponent"][1] == pytest.approx(3.0, abs=1e-9)
@@ -304,12 +222,7 @@ def test_state_with_too_few_branches_has_no_exponent_and_the_others_keep_theirs(
 def test_last_row_along_the_path_is_the_fit_of_its_end():
     contacts = [contacts_of(seed, [2.0, 2.8 + 0.1 * seed]) for seed in range(4)]
     branches, paths = branches_of(contacts, 0, 1), [path_of(0, 1)] * 4
-    _, fit = final_energy_split(branches, paths, EDGES, **SETTINGS)
-    along = exponents_along_path(branches, paths, **SETTINGS)
-    names = ["exponent", "exponent_low", "exponent_high", "branches", "median_overlap_ratio"]
+    _, fit = split_of(branches, paths)
+    along = exponents_of(branches, paths)
+    names = ["exponent", "exponent_low", "exponent_high", "branches", "median_overlap_over_length"]
     assert along.iloc[-1][names].tolist() == [fit[name] for name in names]
-
-
-def test_a_table_whose_states_are_not_one_after_the_other_is_refused(contacts):
-    with pytest.raises(ValueError, match="state after state"):
-        branches_of([table.iloc[::-1] for table in contacts], 1, 2)

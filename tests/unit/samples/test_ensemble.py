@@ -3,9 +3,16 @@
 import numpy as np
 import pandas as pd
 import pytest
+from numpy.testing import assert_allclose
 
 from branchcrush.errors import FitError
-from branchcrush.samples.ensemble import certified_loading, end_of_loading, on_the_way_in, stacked
+from branchcrush.samples.ensemble import (
+    certified_loading,
+    end_of_loading,
+    mean_path,
+    on_the_way_in,
+    stacked,
+)
 
 
 def path_of(carries_load, solid_fraction=0.7):
@@ -113,3 +120,29 @@ def test_stacked_paths_keep_their_seeds_apart():
     assert together["seed_number"].tolist() == [0, 0, 1, 1]
     assert together["solid_fraction"].tolist() == [0.7, 0.71, 0.8, 0.81]
     assert together.index.tolist() == [0, 1, 2, 3]
+
+
+def test_mean_path_has_a_row_a_state_with_the_means_of_the_seeds():
+    paths = [
+        pd.DataFrame(
+            {
+                "state": [4, 9],
+                "solid_fraction": [0.66 + shift, 0.70 + shift],
+                "mean_stress_Pa": [1e4 * factor, 5e4 * factor],
+                "leg": "loading",
+            }
+        )
+        for shift, factor in ((0.0, 1.0), (0.02, 2.0), (0.01, 3.0))
+    ]
+    found = mean_path(paths, 0.65)
+    assert found.columns.tolist() == [
+        "state",
+        "solid_fraction",
+        "solid_fraction_above_jamming",
+        "mean_stress_Pa",
+    ]
+    assert found["state"].tolist() == [4, 9]
+    assert_allclose(found["solid_fraction"], [0.67, 0.71], rtol=1e-12)
+    assert_allclose(found["solid_fraction_above_jamming"], [0.02, 0.06], rtol=1e-9)
+    assert_allclose(found["mean_stress_Pa"], [2e4, 1e5], rtol=1e-12)
+    assert_allclose(mean_path(paths[::-1], 0.65), found, rtol=1e-12)

@@ -15,7 +15,7 @@ from branchcrush.forces.distribution import THRESHOLDS, force_tail, relative_for
 from branchcrush.forces.fabric import fabric_result
 from branchcrush.forces.stress import stress_sharing
 from branchcrush.packings.network import Network
-from branchcrush.samples.sharing import TABLES, both_states, shared_in_state
+from branchcrush.samples.sharing import TABLES, shared_in_state, states_together
 from branchcrush.statistics.bins import bin_edges
 
 OPTIONS = {"confidence": 0.95, "resamples": 100}
@@ -208,7 +208,7 @@ def test_grains_of_one_size_have_reasons_in_place_of_power_laws():
     assert summary["forces"]["by_length"] == {}
     assert_allclose(summary["stress"]["sharing_index"], 0.0, atol=1e-12)
     assert_allclose(tables["stress_by_radius"]["stress_ratio"], 1.0)
-    whole, _ = both_states({("end", 3): (tables, summary)})
+    whole, _ = states_together({("end", 3): (tables, summary)})
     assert list(whole["shielding_branches"]) == ["reason"]
     assert len(whole["shielding_branches"]) == 1
 
@@ -218,7 +218,7 @@ def test_grains_of_one_size_have_reasons_in_place_of_power_laws():
 
 def test_states_stand_one_after_the_other_with_their_names_and_numbers(found):
     other = shared(sample(seed=2, seeds=3))
-    tables, summary = both_states({("near_jamming", 4): found, ("end", 17): other})
+    tables, summary = states_together({("near_jamming", 4): found, ("end", 17): other})
     assert list(tables) == list(TABLES)
     for name, table in tables.items():
         assert list(table)[:2] == ["where", "state"]
@@ -234,7 +234,7 @@ def test_states_stand_one_after_the_other_with_their_names_and_numbers(found):
 
 def test_a_table_that_one_state_lacks_has_that_of_the_other(found):
     lacking = {name: table for name, table in found[0].items() if name != "shielding_branches"}
-    tables, _ = both_states({("near_jamming", 0): (lacking, {}), ("end", 1): found})
+    tables, _ = states_together({("near_jamming", 0): (lacking, {}), ("end", 1): found})
     assert set(tables["shielding_branches"]["where"]) == {"end"}
     assert len(tables["shielding_branches"]) == len(found[0]["shielding_branches"])
     assert set(tables["fabric"]["where"]) == {"near_jamming", "end"}

@@ -22,7 +22,7 @@ FIT = {
     "jamming_solid_fraction": 0.64,
     "mean_stress_Pa": 5.6e7,
     "elastic_energy_J_per_m3": 1e6,
-    "median_overlap_ratio": 0.02,
+    "median_overlap_over_length": 0.02,
     "coordination_number": 6.5,
     "mechanical_coordination_number": 7.5,
     "rattler_fraction": 0.1,

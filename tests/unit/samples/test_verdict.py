@@ -1,0 +1,227 @@
+"""The verdict of a sample on invented states: each reason to withhold it, and each flag."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from numpy.testing import assert_allclose
+
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.samples.certificate import LIMITS, state_certificates
+from branchcrush.samples.verdict import sample_certificate
+from branchcrush.statistics.intervals import Interval
+from tests.unit.samples.sound_paths import path_of
+
+
+def converged(**changes):
+    """Return a `convergence.csv` in which nothing changes but what is given."""
+    rows = []
+    for quantity, value in (("exponent", 3.0), ("mean_stress_Pa", 1e6), ("force_evaluations", 1e4)):
+        difference, error = changes.get(quantity, (0.0, 1e-9))
+        rows.append(
+            {
+                "quantity": quantity,
+                "seeds": changes.get("seeds", 4),
+                "value": value,
+                "value_at_twice_the_steps": value + difference,
+                "difference": difference,
+                "standard_error_of_difference": error,
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+NO_CONVERGENCE = converged()[:0]
+
+
+def fit_of(*exponent):
+    """Return an energy split with this exponent and interval; n = 3 +- 0.1 by default."""
+    fit = EnergySplitFit.without("no matter")
+    return replace(fit, exponent=Interval(*(exponent or (3.0, 2.9, 3.1))), reason=None)
+
+
+def certificate_of(paths, convergence=None, warnings=(), fit=None, **jamming):
+    seeds = list(range(3, 3 + len(paths)))
+    points = {
+        "seed": seeds,
+        "jamming_solid_fraction_loading": 0.64 + 0.002 * np.arange(len(paths)),
+        "jamming_solid_fraction_unloading": np.nan,
+        "uncertainty_loading": 1e-4,
+        "loaded_from_the_start": False,
+    }
+    return sample_certificate(
+        state_certificates(seeds, paths),
+        paths,
+        pd.DataFrame({**points, **jamming}),
+        converged() if convergence is None else convergence,
+        {"representativity": {"warnings": list(warnings)}},
+        fit_of() if fit is None else fit,
+    )
+
+
+def test_sound_sample_is_certified_with_its_worst_values():
+    found = certificate_of([path_of(), path_of(unbalanced_force_ratio=9e-7)])
+    assert (found["verdict"], found["reasons"], found["flags"]) == ("certified", [], [])
+    assert (found["seeds"], found["seeds_certified"]) == (2, 2)
+    assert (found["states"], found["states_loaded"], found["states_certified"]) == (6, 4, 4)
+    assert found["limits"] == LIMITS
+    assert found["worst"]["unbalanced_force_ratio"] == 9e-7
+    assert found["worst"]["escaped"] == 0
+    assert_allclose(found["jamming_solid_fraction"], 0.641)
+    assert_allclose(found["jamming_solid_fraction_scatter"], 0.002 / np.sqrt(2))
+    assert found["jamming_solid_fraction_unloading"] is None
+    assert_allclose(found["dissipated_share_at_end"], 0.1)
+    assert found["force_evaluations"] == 2000
+    assert [row["quantity"] for row in found["convergence"]] == list(converged()["quantity"])
+
+
+def test_what_tells_of_the_end_is_of_the_end_of_the_loading():
+    path = path_of("llu", (False, True, True), rattler_fraction=[1.0, 0.1, 0.4])
+    assert certificate_of([path])["rattler_fraction_at_end"] == 0.1
+
+
+def test_seed_that_stopped_is_named_with_its_reason():
+    stopped = [np.nan, "stopped at an edge of 1 m: no rest"]
+    short = path_of("ll", (False, True), stopped=stopped)
+    found = certificate_of([path_of(), short])
+    assert found["verdict"] == "not certified"
+    assert found["reasons"] == ["seed 4: stopped at an edge of 1 m: no rest"]
+
+
+def test_packings_without_load_are_counted_with_the_fractions_reached():
+    loose = [path_of(loaded=[False] * 3, solid_fraction=[0.1, 0.2, end]) for end in (0.5, 0.52)]
+    found = certificate_of([path_of(), *loose])
+    assert found["reasons"] == [
+        "2 of 3 packings carry no load at the end of their loading, solid fraction 0.5000 to "
+        "0.5200: load further"
+    ]
+    assert found["seeds_certified"] == 1
+
+
+def test_sample_that_never_carries_load_has_no_worst_values():
+    found = certificate_of([path_of(loaded=[False] * 3)])
+    assert set(found["worst"].values()) == {None}
+    assert found["verdict"] == "not certified"
+
+
+def test_packing_unloaded_on_its_way_back_carried_load_at_the_end_of_its_loading():
+    path = path_of("lluu", (False, True, True, False))
+    assert certificate_of([path])["verdict"] == "certified"
+
+
+def test_first_five_states_that_fail_are_named_and_the_others_counted():
+    moving = path_of("l" * 8, [True] * 8, inertial_number=[1e-7] + [1e-2] * 7)
+    reasons = certificate_of([moving])["reasons"]
+    assert reasons[0] == "seed 3, state 1: moving: inertial number 0.01, at most 0.0001"
+    assert [reason.split(":")[0] for reason in reasons[:5]] == [
+        f"seed 3, state {state}" for state in range(1, 6)
+    ]
+    assert reasons[5:] == ["and 2 more states"]
+
+
+@pytest.mark.parametrize(
+    ("quantity", "within", "beyond"),
+    [("exponent", 0.099, 0.101), ("mean_stress_Pa", 1.99e4, 2.01e4)],
+)
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_change_beyond_what_is_allowed_and_beyond_noise_is_not_converged(
+    quantity, within, beyond, sign
+):
+    for change, reasons in ((within, 0), (beyond, 1)):
+        table = converged(**{quantity: (sign * change, 1e-12)})
+        found = certificate_of([path_of()], table)["reasons"]
+        assert len(found) == reasons
+        assert all(text.startswith(f"not converged: {quantity} changes from ") for text in found)
+
+
+@pytest.mark.parametrize(("seeds", "student"), [(4, 3.1824463), (2, 12.7062047)])
+def test_change_within_the_noise_of_its_pairs_is_no_change(seeds, student):
+    for times, reasons in ((0.999, 1), (1.001, 0)):
+        table = converged(exponent=(0.5, times * 0.5 / student), seeds=seeds)
+        found = certificate_of([path_of()], table)
+        assert len(found["reasons"]) == reasons
+        # What is left to chance is said: too few pairs to tell.
+        assert [
+            flag.startswith("convergence not decided: exponent") for flag in found["flags"]
+        ] == [True] * (1 - reasons)
+
+
+def test_change_of_one_pair_has_no_noise_to_hide_in():
+    table = converged(exponent=(0.11, np.nan), seeds=1)
+    assert len(certificate_of([path_of()], table)["reasons"]) == 1
+
+
+def test_cost_of_twice_the_steps_is_no_matter_of_convergence():
+    table = converged(force_evaluations=(1e4, 1.0))
+    assert certificate_of([path_of()], table)["verdict"] == "certified"
+
+
+def test_exponent_that_no_seed_gives_is_not_compared():
+    table = converged(exponent=(np.nan, np.nan))
+    assert certificate_of([path_of()], table)["verdict"] == "certified"
+
+
+def test_sample_without_a_second_run_is_flagged():
+    found = certificate_of([path_of()], NO_CONVERGENCE)
+    assert found["verdict"] == "flagged"
+    assert found["flags"] == [
+        "convergence not checked: no seed was run again with twice the strain steps and certified "
+        "in both runs"
+    ]
+    assert found["convergence"] == []
+
+
+def test_warnings_of_the_grading_are_repeated():
+    found = certificate_of([path_of()], warnings=["60 grains: too few for this grading"])
+    assert (found["verdict"], found["reasons"]) == ("flagged", [])
+    assert found["flags"] == ["60 grains: too few for this grading"]
+
+
+def test_deep_overlaps_at_the_end_are_flagged_with_their_medians():
+    deep = path_of(overlap_ratio_95=[0.0, 0.02, 0.08], median_overlap_ratio=[0.0, 0.01, 0.04])
+    found = certificate_of([deep, deep])
+    assert (found["verdict"], found["seeds_certified"]) == ("flagged", 2)
+    (flag,) = found["flags"]
+    assert flag.startswith("overlaps at the end: 4.0% of the smaller radius in the median, 8.0% at")
+    passing = path_of(overlap_ratio_95=[0.0, 0.08, 0.02])
+    assert certificate_of([passing])["flags"] == []
+
+
+def test_load_at_the_first_step_is_flagged():
+    found = certificate_of([path_of()], loaded_from_the_start=True)
+    assert "lower loading.approach_solid_fraction" in found["flags"][0]
+
+
+def test_all_reasons_and_flags_are_given_at_once():
+    moving = path_of(inertial_number=[np.nan, 1e-7, 1e-2])
+    stopped = path_of("ll", (False, True), stopped=[np.nan, "stopped on the way"])
+    loose = path_of(loaded=[False] * 3)
+    table = converged(exponent=(0.5, 1e-9), mean_stress_Pa=(1e5, 1.0))
+    found = certificate_of([moving, stopped, loose], table, ["few grains"])
+    assert [reason.split(" ")[0] for reason in found["reasons"]] == ["seed", "1", "seed"] + [
+        "not"
+    ] * 2
+    assert found["flags"] == ["few grains"]
+    assert found["verdict"] == "not certified"
+
+
+@pytest.mark.parametrize(
+    ("exponent", "told"), [((1.0, 0.51, 1.49), True), ((1.0, 0.49, 1.51), False)]
+)
+def test_interval_wider_than_the_exponent_takes_the_certificate_away(exponent, told):
+    found = certificate_of([path_of()], fit=fit_of(*exponent))
+    assert found["verdict"] == ("certified" if told else "not certified")
+    assert len(found["reasons"]) == (not told)
+
+
+def test_reason_names_the_width_of_the_interval():
+    found = certificate_of([path_of()], fit=fit_of(1.74, -5.19, 8.67))
+    assert found["reasons"] == [
+        "too few seeds or branches to tell n: its interval, -5.19 to 8.67, is wider than n itself"
+    ]
+
+
+@pytest.mark.parametrize("fit", [EnergySplitFit.without("one length"), fit_of(3.0, np.nan, np.nan)])
+def test_without_an_exponent_or_an_interval_there_is_no_width(fit):
+    assert certificate_of([path_of()], fit=fit)["verdict"] == "certified"
