@@ -1,8 +1,13 @@
 """Einav's energy split: how the elastic energy of a grain goes with its own radius."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from branchcrush.packings.grains import grain_energy
+from branchcrush.packings.network import Network
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
 
 # Of Einav's split: energy per unit mass as the square of the diameter, so per grain as its fifth
@@ -10,14 +15,14 @@ from branchcrush.statistics.gamma_regression import gamma_fit, parameter_interva
 EINAV = 5.0
 
 
-def _power(theta, radius=None):
-    if theta is None:
-        return [0.0, 3.0]
-    slope = np.stack([np.ones_like(radius), radius], axis=1)
-    return slope @ theta, slope
-
-
-def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resamples=2000, rng):
+def grain_energy_exponents(
+    networks: Sequence[Network],
+    contact_exponent: float,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, float]:
     r"""Return the exponent of the energy of a grain in its radius.
 
     .. math:: \langle e \rangle(R) \sim R^a
@@ -26,7 +31,7 @@ def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resam
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     contact_exponent : float
         1 for linear contacts, 3/2 for Hertz.
@@ -49,7 +54,7 @@ def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resam
     Einav (2007), J. Mech. Phys. Solids 55, 1274.
     """
     radius_max = max(network.radius.max() for network in networks)
-    found = {}
+    exponents: dict[str, float] = {}
     for name in ("all_grains", "load_bearing"):
         seeds = []
         for network in networks:
@@ -58,5 +63,12 @@ def grain_energy_exponents(networks, contact_exponent, *, confidence=0.95, resam
             seeds.append((np.log(network.radius[kept] / radius_max), energy))
         fit = gamma_fit(seeds, _power)
         limits = parameter_intervals(fit, confidence=confidence, resamples=resamples, rng=rng)
-        found |= limits.part(1).named(f"exponent_{name}")
-    return found
+        exponents |= limits.part(1).named(f"exponent_{name}")
+    return exponents
+
+
+def _power(theta: NDArray | None, log_radius: NDArray | None = None) -> Any:
+    if theta is None or log_radius is None:
+        return [0.0, 3.0]
+    slope = np.stack([np.ones_like(log_radius), log_radius], axis=1)
+    return slope @ theta, slope

@@ -4,15 +4,26 @@ Every predictor gives the mean energy of a branch from its two radii. Each is fi
 of some seeds and then asked about the branches of the others.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from branchcrush.energy.fit import Curvature, FittedPredictor
+from branchcrush.energy.designs import (
+    grain_sizes,
+    linear_design,
+    log_length,
+    log_reduced_radius,
+)
+from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import Resampling, pooled_interval
+from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
+
+# Of one seed: ln(r_min/R_max), ln(r_max/R_max) and energy [J] of each branch.
+BranchColumns = tuple[NDArray, NDArray, NDArray]
 
 # Over the mean energy of the packing: contacts of rattlers hold what relaxation leaves, 1e-10 of it
 # or less, and forces below 1e-4 of the mean are no part of the network.
@@ -39,46 +50,17 @@ class Predictor:
 
     formula: str
     names: tuple[str, ...]
-    design: Callable
+    design: Callable[..., Any]
     label: str
     color: str
     marker: str
-
-
-def _linear(columns, start):
-    """Return the design of a linear predictor from what makes its columns of ln r_min, ln r_max."""
-
-    def design(theta, small=None, large=None):
-        if theta is None:
-            return [0.0, *start]
-        slope = np.stack([np.ones_like(small), *columns(small, large)], axis=1)
-        return slope @ theta, slope
-
-    return design
-
-
-def log_length(small, large):
-    """Return ln((r_min + r_max)/R_max) from ln(r_min/R_max) and ln(r_max/R_max)."""
-    return large + np.log1p(np.exp(small - large))
-
-
-def _log_reduced(small, large):
-    return small + large - log_length(small, large)
-
-
-def _grain_sizes(theta, small=None, large=None):
-    if theta is None:
-        return [0.0, 3.0]
-    share = 1.0 / (1.0 + np.exp(theta[1] * (small - large)))  # of the larger grain
-    eta = theta[0] + theta[1] * large - np.log(share)
-    return eta, np.stack([np.ones_like(small), share * large + (1.0 - share) * small], axis=1)
 
 
 PREDICTORS = {
     "branch_length": Predictor(
         "A l^n",
         ("exponent",),
-        _linear(lambda s, g: [log_length(s, g)], [3.0]),
+        linear_design(lambda s, g: [log_length(s, g)], [3.0]),
         label="branch length l",
         color="#1f4e79",
         marker="o",
@@ -86,7 +68,7 @@ PREDICTORS = {
     "reduced_radius": Predictor(
         "A (r1 r2/(r1 + r2))^n",
         ("exponent",),
-        _linear(lambda s, g: [_log_reduced(s, g)], [2.0]),
+        linear_design(lambda s, g: [log_reduced_radius(s, g)], [2.0]),
         label="reduced radius R*",
         color="#3a7d44",
         marker="D",
@@ -94,7 +76,7 @@ PREDICTORS = {
     "both_radii": Predictor(
         "A r_min^a r_max^b",
         ("a", "b"),
-        _linear(lambda s, g: [s, g], [1.0, 2.0]),
+        linear_design(lambda s, g: [s, g], [1.0, 2.0]),
         label=r"$r_{min}^a\, r_{max}^b$",
         color="#8a5aa5",
         marker="^",
@@ -102,7 +84,7 @@ PREDICTORS = {
     "grain_size": Predictor(
         "A (r1^q + r2^q)",
         ("exponent",),
-        _grain_sizes,
+        grain_sizes,
         label="grain size (Einav)",
         color="#c1440e",
         marker="s",
@@ -110,16 +92,19 @@ PREDICTORS = {
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",
         ("s", "g", "ss", "sg", "gg"),
-        _linear(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
+        linear_design(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
         label="any smooth function of both",
         color="#444444",
         marker="|",
     ),
 }
-_CONSTANT = _linear(lambda s, g: [], [])
+# Nothing but a scale: what is explained is explained beyond it.
+_CONSTANT = linear_design(lambda s, g: [], [])
 
 
-def branch_columns(radius_i, radius_j, energy, radius_max):
+def branch_columns(
+    radius_i: ArrayLike, radius_j: ArrayLike, energy: ArrayLike, radius_max: float
+) -> BranchColumns:
     """Return the branches of a seed as the predictors take them; those that hold nothing left out.
 
     What a contact of a rattler holds, 1e-10 of the mean or less, is left by the relaxation and says
@@ -144,13 +129,17 @@ def branch_columns(radius_i, radius_j, energy, radius_max):
     >>> [part.tolist() for part in branch_columns([1.0, 2.0], [2.0, 1.0], [3.0, 0.0], 1.0)]
     [[0.0], [0.6931471805599453], [3.0]]
     """
-    radius_i, radius_j, energy = (np.asarray(x, dtype=float) for x in (radius_i, radius_j, energy))
-    kept = energy > _RESIDUE * (energy.mean() if energy.size else 0.0)
-    first, second = radius_i[kept] / radius_max, radius_j[kept] / radius_max
-    return np.log(np.minimum(first, second)), np.log(np.maximum(first, second)), energy[kept]
+    held = np.asarray(energy, dtype=float)
+    kept = held > _RESIDUE * (held.mean() if held.size else 0.0)
+    first, second = (
+        np.asarray(radius, dtype=float)[kept] / radius_max for radius in (radius_i, radius_j)
+    )
+    return np.log(np.minimum(first, second)), np.log(np.maximum(first, second)), held[kept]
 
 
-def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
+def compared_predictors(
+    seeds: Sequence[BranchColumns], *, confidence: float = 0.95, resamples: int = 2000
+) -> tuple[FittedPredictor, ...]:
     r"""Return every predictor's parameters and what it explains on seeds left out of its fit.
 
     .. math:: D^2 = 1 - \frac{\sum_s D_s(\text{predictor})}{\sum_s D_s(\text{mean energy})}
@@ -168,12 +157,22 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
     Returns
     -------
     tuple of FittedPredictor
-        As in `PREDICTORS`. Where no seeds can be left out, as when there is one, what is explained
-        is nan and `left_out_reason` says why.
+        In the order of `PREDICTORS`. Where no seeds can be left out, as when there is one, what is
+        explained is nan and `left_out_reason` says why.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(1)
+    >>> length = rng.uniform(0.5, 2.0, (2, 50))
+    >>> seeds = [(np.log(l / 2), np.log(l / 2), l**3) for l in length]  # E = l^3, exactly
+    >>> fitted = compared_predictors(seeds)[0]
+    >>> fitted.name, round(fitted.exponent, 9), round(fitted.explained.estimate, 9)
+    ('branch_length', 3.0, 1.0)
     """
     options = {"confidence": confidence, "resamples": resamples}
     nothing, _ = _judged(seeds, _CONSTANT)
-    by_length, fitted = None, []
+    by_length: NDArray | None = None
+    fitted: list[FittedPredictor] = []
     for name, predictor in PREDICTORS.items():
         try:
             fit = gamma_fit(seeds, predictor.design)
@@ -203,7 +202,9 @@ def compared_predictors(seeds, *, confidence=0.95, resamples=2000):
     return tuple(fitted)
 
 
-def _judged(seeds, design, start=None):
+def _judged(
+    seeds: Sequence[BranchColumns], design: Callable[..., Any], start: NDArray | None = None
+) -> tuple[NDArray, str]:
     """Return the deviance of every seed from the fit to the others, and why if there is none."""
     try:
         return _left_out(seeds, design, start), ""
@@ -211,10 +212,12 @@ def _judged(seeds, design, start=None):
         return np.full(len(seeds), np.nan), str(error)
 
 
-def _left_out(seeds, design, start):
+def _left_out(
+    seeds: Sequence[BranchColumns], design: Callable[..., Any], start: NDArray | None
+) -> NDArray:
     if len(seeds) == 1:
         raise FitError("one seed: there is none to leave out")
-    found = np.empty(len(seeds))
+    deviances = np.empty(len(seeds))
     for group in np.array_split(np.arange(len(seeds)), min(len(seeds), _FOLDS)):
         others = [seed for number, seed in enumerate(seeds) if number not in group]
         try:
@@ -222,11 +225,13 @@ def _left_out(seeds, design, start):
         except FitError as error:
             raise FitError(f"without some of the seeds: {error}") from error
         for number in group:
-            found[number] = deviance(seeds[number], design, parameters)
-    return found
+            deviances[number] = deviance(seeds[number], design, parameters)
+    return deviances
 
 
-def _gained(other, deviances, nothing, options):
+def _gained(
+    other: NDArray, deviances: NDArray, nothing: NDArray, options: dict[str, Any]
+) -> Interval:
     """Return how much less deviance there is than by another predictor, over that of none."""
     return pooled_interval(
         np.stack([other - deviances, nothing], axis=1),
@@ -234,47 +239,3 @@ def _gained(other, deviances, nothing, options):
         rng=Resampling.PREDICTORS.rng(),
         **options,
     )
-
-
-def curvature(seeds, *, confidence=0.95, resamples=2000):
-    r"""Return how far the energies are from a power law of branch length: its curvature.
-
-    .. math:: \ln \langle E \rangle = \ln A + n \ln\frac{l}{l_0} + c \left(\ln\frac{l}{l_0}\right)^2
-
-    l_0 is the geometric mean length, so n is the slope there. The power law is contradicted when
-    the interval of c leaves out 0. The slopes at short and long branches, n + 2 c ln(l/l_0), say
-    what that amounts to.
-
-    Parameters
-    ----------
-    seeds, confidence, resamples
-        As for `compared_predictors`.
-
-    Returns
-    -------
-    Curvature
-
-    Raises
-    ------
-    FitError
-        When fewer than three lengths carry energy.
-    """
-    logs = np.concatenate([log_length(small, large) for small, large, _ in seeds])
-    centre = logs.mean() if logs.size else 0.0
-    short, long = np.quantile(logs - centre, [0.1, 0.9]) if logs.size else (0.0, 0.0)
-    del logs
-
-    def columns(small, large):
-        x = log_length(small, large) - centre
-        return [x, x * x]
-
-    fit = gamma_fit(seeds, _linear(columns, [3.0, 0.0]))
-
-    def wanted(theta):
-        slope, bend = theta[:, 1], theta[:, 2]
-        return np.stack([bend, slope + 2 * bend * short, slope, slope + 2 * bend * long], axis=1)
-
-    limits = parameter_intervals(
-        fit, wanted, confidence=confidence, resamples=resamples, rng=Resampling.PREDICTORS.rng()
-    )
-    return Curvature(*(limits.part(number) for number in range(4)))

@@ -6,12 +6,17 @@ whatever the scale of its energy, and the amplitude is free.
 """
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from branchcrush.statistics.power_law import PowerLaw
 
 # n, by the paper.
 PAPER_EXPONENT = 3.0
 
 
-def energy_split(sums, fit, radius_max):
+def energy_split(
+    sums: ArrayLike, law: PowerLaw, radius_max: float
+) -> tuple[dict[str, NDArray], float]:
     r"""Return the bins of the energy-split function, scaled by the fitted law.
 
     .. math:: f(l) = \frac{\psi_b(l)/N_b}{A\, l_r^n}
@@ -23,7 +28,8 @@ def energy_split(sums, fit, radius_max):
     ----------
     sums : array_like, shape (3, n)
         `statistics.bins.binned_sums` of all seeds together.
-    fit : PowerLaw
+    law : PowerLaw
+        A l^n, fitted to the bins.
     radius_max : float
         [m]
 
@@ -54,11 +60,11 @@ def energy_split(sums, fit, radius_max):
         "branch_length_m": length,
         "branches": counts.astype(int),
         "mean_energy_J": energy,
-        "f": energy / (fit.amplitude * reference**fit.exponent),
+        "f": energy / (law.amplitude * reference**law.exponent),
     }, reference
 
 
-def cubic_r_squared(relative_length, f):
+def cubic_r_squared(relative_length: ArrayLike, f: ArrayLike) -> tuple[float, float]:
     r"""Return slope and R^2 of the paper's Fig. 6: f against (l/l_r)^3, a line through 0.
 
     .. math:: R^2 = 1 - \frac{\sum (f - a x)^2}{\sum (f - \bar f)^2}, \quad x = (l/l_r)^3
@@ -79,9 +85,9 @@ def cubic_r_squared(relative_length, f):
     >>> cubic_r_squared([1.0, 2.0], [1.0, 8.0])
     (1.0, 1.0)
     """
-    x, f = np.asarray(relative_length, dtype=float) ** 3, np.asarray(f, dtype=float)
-    known = np.isfinite(x) & np.isfinite(f)
-    x, f = x[known], f[known]
-    slope = x @ f / (x @ x)
-    residual = np.sum((f - slope * x) ** 2)
-    return float(slope), float(1.0 - residual / np.sum((f - f.mean()) ** 2))
+    cube, split = np.asarray(relative_length, dtype=float) ** 3, np.asarray(f, dtype=float)
+    known = np.isfinite(cube) & np.isfinite(split)
+    cube, split = cube[known], split[known]
+    slope = cube @ split / (cube @ cube)
+    residual = np.sum((split - slope * cube) ** 2)
+    return float(slope), float(1.0 - residual / np.sum((split - split.mean()) ** 2))

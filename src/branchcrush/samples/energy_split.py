@@ -6,9 +6,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from branchcrush.energy.fit import Curvature, EndState, EnergySplitFit, StateFit
-from branchcrush.energy.predictors import compared_predictors, curvature
+from branchcrush.energy.curvature import curvature
+from branchcrush.energy.fit import EndState, EnergySplitFit
+from branchcrush.energy.predictors import compared_predictors
 from branchcrush.energy.split import cubic_r_squared, energy_split
+from branchcrush.energy.state_fit import Curvature, StateFit
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.gradings.distribution import Grading

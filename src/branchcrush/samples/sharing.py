@@ -6,7 +6,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from branchcrush.energy.grain_size import EINAV, grain_energy_exponents
-from branchcrush.energy.shielding import branch_shielding, grain_shielding, network_branches
+from branchcrush.energy.shielding_branches import branch_shielding, network_branches
+from branchcrush.energy.shielding_grains import grain_shielding
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.forces.distribution import force_network_result

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from branchcrush.energy.predictors import PREDICTORS, curvature, log_length
+from branchcrush.energy.curvature import curvature
+from branchcrush.energy.designs import log_length
+from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.statistics.bins import bin_edges, binned_sums
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.statistics.power_law import binned_exponent

@@ -6,13 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from branchcrush.energy.fit import (
-    Curvature,
-    EndState,
-    EnergySplitFit,
-    FittedPredictor,
-    StateFit,
-)
+from branchcrush.energy.fit import EndState, EnergySplitFit
+from branchcrush.energy.state_fit import Curvature, FittedPredictor, StateFit
 from branchcrush.files.tables import read_json, write_json
 from branchcrush.statistics.intervals import Interval
 

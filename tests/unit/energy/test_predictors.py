@@ -8,14 +8,8 @@ from numpy.testing import assert_allclose
 from statsmodels.genmod.families import Gamma, links
 from statsmodels.genmod.generalized_linear_model import GLM
 
-from branchcrush.energy.predictors import (
-    PREDICTORS,
-    branch_columns,
-    compared_predictors,
-    curvature,
-    log_length,
-)
-from branchcrush.errors import FitError
+from branchcrush.energy.designs import log_length
+from branchcrush.energy.predictors import PREDICTORS, branch_columns, compared_predictors
 
 # Parameters after the scale.
 LAWS = {
@@ -257,47 +251,3 @@ def test_branches_without_energy_are_left_out_of_the_columns():
     assert_allclose(np.exp(large), [0.5, 1.0])
     assert energy.tolist() == [5.0, 7.0]
     assert_allclose(np.exp(log_length(small, large)), [0.75, 1.75])
-
-
-# --- curvature -----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("bend", [0.0, 0.4, -0.7])
-def test_exact_quadratic_has_its_own_curvature_and_slopes(bend):
-    rng = np.random.default_rng(8)
-    pairs = [radii(rng, 200) for _ in range(5)]
-    logs = np.concatenate([log_length(*pair) for pair in pairs])
-    centre = logs.mean()
-
-    def mean(small, large):
-        x = log_length(small, large) - centre
-        return 1e-7 * np.exp(2.8 * x + bend * x**2)
-
-    found = curvature([(*pair, mean(*pair)) for pair in pairs])
-    short, long = np.quantile(logs, [0.1, 0.9]) - centre
-    expected = {
-        "curvature": bend,
-        "slope_at_10_percent": 2.8 + 2 * bend * short,
-        "slope_at_mean": 2.8,
-        "slope_at_90_percent": 2.8 + 2 * bend * long,
-    }
-    for name, value in expected.items():
-        assert_allclose(getattr(found, name), value, atol=1e-7)
-
-
-def test_three_lengths_of_two_sizes_have_a_curvature_and_two_lengths_none():
-    small, large = np.log([[0.25, 0.25, 0.5], [0.25, 0.5, 0.5]])
-    # Lengths 1/2, 3/4 and 1.
-    energy = np.array([1.0, 4.0, 9.0])
-    expected = np.polyfit(np.log([0.5, 0.75, 1.0]), np.log(energy), 2)[0]
-    bend = curvature([(small, large, energy)] * 2).curvature
-    assert bend.estimate == pytest.approx(expected)
-    for kept in (slice(2), slice(1), slice(0)):
-        with pytest.raises(FitError):
-            curvature([(small[kept], large[kept], energy[kept])] * 2)
-
-
-def test_one_seed_has_a_curvature_without_an_interval():
-    found = curvature(study(np.random.default_rng(9), 1, 500, lambda s, g: np.exp(3 * g)))
-    assert np.isfinite(found.curvature.estimate)
-    assert np.isnan([found.curvature.low, found.slope_at_mean.high]).all()

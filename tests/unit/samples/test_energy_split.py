@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.energy.predictors import log_length
+from branchcrush.energy.designs import log_length
 from branchcrush.errors import FitError
 from branchcrush.samples.energy_split import (
     end_state,

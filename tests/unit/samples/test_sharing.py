@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from pandas.testing import assert_frame_equal
 
 from branchcrush.branches.contact_numbers import radius_classes
-from branchcrush.energy.shielding import grain_shielding
+from branchcrush.energy.shielding_grains import grain_shielding
 from branchcrush.forces.distribution import THRESHOLDS, force_tail, relative_forces
 from branchcrush.forces.fabric import fabric_result
 from branchcrush.forces.stress import stress_sharing
