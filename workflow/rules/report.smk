@@ -111,7 +111,7 @@ rule comparison:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        samples=list(SAMPLES),
+        samples=SAMPLES,
     script:
         "../scripts/comparison.py"
 
@@ -124,7 +124,10 @@ rule report:
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
-        figures=expand("results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES),
+        **{
+            name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
+            for name in FIGURES
+        },
         code=code("report"),
     output:
         "results/report.html",
@@ -134,6 +137,7 @@ rule report:
         "../envs/branchcrush.yaml"
     params:
         samples=SAMPLES,
+        figures=FIGURES,
     script:
         "../scripts/report.py"
 

@@ -13,10 +13,13 @@ from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.plotting.style import FAINT, axes, draw_band, widen
-from branchcrush.study.findings import GOOD_DISTANCE
 from branchcrush.study.kinds import SampleKind
+from branchcrush.study.verdicts import GOOD_DISTANCE
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
+
+# Of `findings.csv`, by what `plot_samples` draws of each prediction or predictor.
+COLUMNS = {"lengths": "ks_{}_near", "energies": "explained_{}_end"}
 
 
 def sample_styles(samples: Mapping[str, SampleKind]) -> dict[str, dict]:
@@ -120,10 +123,7 @@ def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:
     Axes
     """
     ax = axes(ax)
-    column, looks = {
-        "lengths": ("ks_{}_near", PREDICTIONS),
-        "energies": ("explained_{}_end", PREDICTORS),
-    }[kind]
+    column, looks = COLUMNS[kind], {"lengths": PREDICTIONS, "energies": PREDICTORS}[kind]
     places = np.arange(len(rows))
     for name, look in looks.items():
         if column.format(name) in rows:

@@ -35,20 +35,26 @@ def draw_exponents(path: Path, dpi: int, paths: Tables, styles: Styles) -> Figur
     -------
     Figure
     """
-    known = with_data(paths)
-    laws = dict.fromkeys(style["law"] for style in styles.values())
-    panels = [(study.plot_exponents, known, styles, law) for law in laws]
-    return _draw(path, dpi, _SIDE_BY_SIDE, *panels)
+    known = {
+        name: table
+        for name, table in with_data(paths).items()
+        if table["solid_fraction_above_jamming"].notna().any()
+    }
+    panels = []
+    for law in dict.fromkeys(style["law"] for style in styles.values()):
+        of_law = {name: table for name, table in known.items() if styles[name]["law"] == law}
+        panels.append((study.plot_exponents, of_law, styles, law))
+    return _draw(path, dpi, _SIDE_BY_SIDE, *panels, nothing="of no sample are n and phi_J known")
 
 
 def draw_lengths(path: Path, dpi: int, rows: Table) -> Figure:
     """Draw how far predicted branch lengths are off, from `findings.csv`."""
-    return _draw_samples(path, dpi, rows, "lengths")
+    return _draw_samples(path, dpi, rows, "lengths", "no sample has a state near jamming")
 
 
 def draw_energies(path: Path, dpi: int, rows: Table) -> Figure:
     """Draw what predictors explain of the energies, from `findings.csv`."""
-    return _draw_samples(path, dpi, rows, "energies")
+    return _draw_samples(path, dpi, rows, "energies", "no sample has seeds to leave out")
 
 
 def draw_coordination(path: Path, dpi: int, states: Table, styles: Styles) -> Figure:
@@ -145,17 +151,24 @@ def with_data(tables: Tables) -> dict[str, Table]:
     return {name: table for name, table in tables.items() if "reason" not in table}
 
 
-def _draw_samples(path: Path, dpi: int, rows: Table, kind: str) -> Figure:
+def _draw_samples(path: Path, dpi: int, rows: Table, kind: str, nothing: str) -> Figure:
     known = rows[rows["exponent_at_end"].notna()] if "exponent_at_end" in rows else rows[:0]
+    # A sample of one state has no number near jamming, nor one of one seed a deviance.
+    pattern = study.COLUMNS[kind].format(".+")
+    known = known[known.filter(regex=f"^{pattern}$").notna().any(axis="columns")]
     size = (2 * SIZE[0], SIZE[1] + 0.16 * len(rows))
-    return _draw(path, dpi, size, (study.plot_samples, known, kind))
+    return _draw(path, dpi, size, (study.plot_samples, known, kind), nothing=nothing)
 
 
 def _draw(
-    path: Path, dpi: int, size: tuple[float, float], *panels: tuple[Callable[..., Axes], Any, Any]
+    path: Path,
+    dpi: int,
+    size: tuple[float, float],
+    *panels: tuple[Callable[..., Axes], Any, Any],
+    nothing: str = "no sample has any",
 ) -> Figure:
     """Draw panels side by side; of each a plot, its data and what it takes besides."""
     with figure(path, dpi, size, (1, len(panels)), squeeze=False) as axes:
         for ax, (plot, data, *rest) in zip(axes.flat, panels, strict=True):
-            plot(data, *rest, ax=ax) if len(data) else reason(ax, "no sample has any")
+            plot(data, *rest, ax=ax) if len(data) else reason(ax, nothing)
     return axes[0, 0].figure

@@ -42,7 +42,10 @@ def plot_coordination(states: Table, styles: Mapping[str, Mapping], ax: Axes | N
             color=color,
             alpha=0.5,
         )
-    e = np.linspace(states["void_ratio"].min(), states["void_ratio"].max(), 100)
+    # Beside one state, relations are shown over some range too.
+    least, most = states["void_ratio"].min(), states["void_ratio"].max()
+    wider = max(0.0, 0.1 - (most - least)) / 2.0
+    e = np.linspace(least - wider, most + wider, 100)
     curves = ((smith, "-", "Smith 1929"), (field, "--", "Field 1963"), (gray, ":", "Gray 1968"))
     for relation, line, label in curves:
         ax.plot(e, relation(e), line, color="black", lw=1.0, label=label)

@@ -59,6 +59,17 @@ class Interval(NamedTuple):
         """Return the interval of one quantity of many, or of some: an index into the arrays."""
         return Interval(*(_plain(values[place]) for values in self))
 
+    @property
+    def is_wide(self) -> bool:
+        """Whether it is wider than the estimate itself, which then is not told; not where unknown.
+
+        Examples
+        --------
+        >>> Interval(3.0, 1.4, 4.6).is_wide, Interval(3.0, 1.6, 4.4).is_wide
+        (True, False)
+        """
+        return bool(self.high - self.low > abs(self.estimate))
+
     @classmethod
     def read(cls, result, name: str) -> "Interval":
         """Return the interval that a result holds under a name; nan where it has none."""
