@@ -24,7 +24,7 @@ STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEA
 # One column of a journal page [inch].
 SIZE = (3.5, 2.7)
 # Solid fractions are drawn on an axis that is at least so wide [-].
-LEAST_SPREAD = 0.02
+LEAST_SPREAD = 0.05
 
 _STYLE = {
     "font.size": 8,

@@ -165,7 +165,7 @@ def test_mean_length_of_one_state_is_a_point_with_a_bar_on_an_axis_of_some_width
     assert_allclose(shown.line(ax, "measured"), [[0.05], [1.5]])
     assert_allclose(shown.bars(ax.containers[0]), [[1.4], [1.7]])
     low, high = ax.get_xlim()
-    assert high - low == pytest.approx(0.02) and low < 0.05 < high
+    assert high - low == pytest.approx(0.05) and low < 0.05 < high
 
 
 def test_branch_lengths_are_bars_of_densities_over_the_largest_radius(shown):
