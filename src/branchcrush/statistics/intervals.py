@@ -96,6 +96,17 @@ class Interval(NamedTuple):
         """
         return Interval(*(_plain(np.asarray(values)[place]) for values in self))
 
+    @property
+    def is_wide(self) -> bool:
+        """Whether it is wider than the estimate itself, which then is not told; not where unknown.
+
+        Examples
+        --------
+        >>> Interval(3.0, 1.4, 4.6).is_wide, Interval(3.0, 1.6, 4.4).is_wide
+        (True, False)
+        """
+        return bool(self.high - self.low > abs(self.estimate))
+
     @classmethod
     def read(cls, result: Mapping[str, Any], name: str) -> "Interval":
         """Return the interval that a result holds under a name.
