@@ -3,13 +3,15 @@
 import contextlib
 import sys
 import traceback
+from collections.abc import Iterator
+from os import PathLike
 from pathlib import Path
 
 from branchcrush.errors import BranchcrushError
 
 
 @contextlib.contextmanager
-def job(log):
+def job(log: str | PathLike[str]) -> Iterator[None]:
     """Turn an error of the package into one message and a failed job; log anything else whole.
 
     Parameters
@@ -21,6 +23,18 @@ def job(log):
     ------
     SystemExit
         For a `BranchcrushError`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from branchcrush.errors import FitError
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     try:
+    ...         with job(f"{folder}/fit.log"):
+    ...             raise FitError("no packing carries load")
+    ...     except SystemExit:
+    ...         print(Path(folder, "fit.log").read_text(), end="")
+    branchcrush: no packing carries load
     """
     log = Path(log)
     log.parent.mkdir(parents=True, exist_ok=True)

@@ -2,6 +2,7 @@
 
 import ast
 from functools import cache
+from os import PathLike
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
@@ -10,7 +11,7 @@ _NO_RESULT = {"jobs"}
 
 
 @cache
-def imported_modules(path):
+def imported_modules(path: str | PathLike[str]) -> frozenset[str]:
     """Return the modules of this package that a Python file imports directly.
 
     Parameters
@@ -27,18 +28,18 @@ def imported_modules(path):
     >>> sorted(imported_modules(Path(__file__).with_name("packings") / "placement.py"))
     ['errors', 'packings.cell_grid', 'packings.geometry']
     """
-    found = set()
+    modules = set()
     for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "branchcrush":
-            base = node.module.removeprefix("branchcrush").lstrip(".")
-            names = {f"{base}.{alias.name}".lstrip(".") for alias in node.names}
-            # `from branchcrush import tables` names a module, `from branchcrush.errors import X`
-            # a name inside one.
-            found |= {name for name in names if _file(name)} or {base}
-    return frozenset(name for name in found if _file(name))
+        if isinstance(node, ast.Import):
+            modules |= {_module(alias.name) for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            # `from branchcrush.files import X` names a module of the room, or something in its own.
+            names = (f"{node.module}.{alias.name}" for alias in node.names)
+            modules |= {_module(name) or _module(node.module) for name in names}
+    return frozenset(modules - {None})
 
 
-def source_files(path):
+def source_files(path: str | PathLike[str]) -> list[str]:
     """Return the files of this package that a Python file imports, directly or through others.
 
     Parameters
@@ -66,7 +67,14 @@ def source_files(path):
     return sorted(str(_file(module)) for module in seen)
 
 
+def _module(name):
+    """Return the name below the package that an import names, or None for another's."""
+    package, _, module = name.partition(".")
+    return module if package == "branchcrush" and _file(module) else None
+
+
 def _file(module):
+    """Return the file of a module, or None where there is no such module."""
     path = _PACKAGE.joinpath(*module.split("."))
     for candidate in (path.with_suffix(".py"), path / "__init__.py"):
         if module and candidate.is_file():

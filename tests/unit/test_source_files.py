@@ -1,11 +1,14 @@
-"""What imports what: the science knows no files and no LAMMPS, the workflow misses nothing."""
+"""What a job depends on: the workflow watches what Python loads, and loads no more than it needs.
+
+Which room may import which, and which packages from outside, is held by the contracts in
+pyproject.toml. Here is what those cannot see.
+"""
 
 import ast
 import json
 import re
 import subprocess
 import sys
-from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -15,8 +18,13 @@ from branchcrush.source_files import imported_modules, source_files
 
 PACKAGE = Path(branchcrush.__file__).parent
 REPOSITORY = Path(__file__).parents[2]
-# What a check imports when it is made: few jobs need it, and SciPy takes seconds.
-LATE = {"config.schema": "gradings.truncation", "config.gradings": "gradings.truncation"}
+SCRIPTS = sorted(REPOSITORY.glob("workflow/scripts/*.py"))
+ROOMS = sorted(file.parent.name for file in PACKAGE.glob("*/__init__.py"))
+# Rooms that no drawing, no workflow and no check of a configuration may slow down.
+PURE = ("branches", "crushing", "energy", "forces", "gradings", "loading", "packings", "samples")
+PURE += ("statistics",)
+# Besides the pure ones, of what the jobs of the seeds load: many are started.
+LEAN = ("config.build", "files.seeds", "lammps.compression")
 
 
 def name_of(file):
@@ -24,180 +32,143 @@ def name_of(file):
 
 
 MODULES = sorted(name_of(file) for file in PACKAGE.rglob("*.py") if file.name != "__init__.py")
-ROOMS = ("gradings", "packings", "loading", "branches", "energy", "forces", "crushing")
-ROOMS += ("statistics", "samples")
-PURE = {module for module in MODULES if module.partition(".")[0] in ROOMS}
-every_module = pytest.mark.parametrize("module", MODULES)
 
 
 def file_of(module):
     return PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
 
 
-def closure(*modules):
-    followed = {name_of(file) for module in modules for file in source_files(file_of(module))}
-    return followed | set(modules)
+def watched(path):
+    return {name_of(file) for file in source_files(path)}
 
 
-def packages_imported_by(file):
-    """Return the top-level packages a source file imports, wherever in it and however."""
-    found = set()
-    for node in ast.walk(ast.parse(Path(file).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            found.add(node.module if node.level == 0 else "branchcrush")
-        elif (
-            isinstance(node, ast.Call)
-            and getattr(node.func, "id", getattr(node.func, "attr", None))
-            in ("import_module", "__import__")
-            and isinstance(node.args[0], ast.Constant)
-        ):
-            found.add(node.args[0].value)
-    return {name.partition(".")[0] for name in found}
+def closure(modules):
+    return set(modules).union(*(watched(file_of(module)) for module in modules))
 
 
-def importers_of(*packages):
-    files = PACKAGE.rglob("*.py")
-    return {name_of(file) for file in files if packages_imported_by(file) & set(packages)}
+# --- which files a module is made of -------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def loaded():
-    """What Python really loads with each module, in an interpreter of its own."""
-    program = """
+@pytest.mark.parametrize(
+    ("source", "modules"),
+    [
+        ("from branchcrush.errors import FitError, GradingError", {"errors"}),
+        ("from branchcrush.files import tables, rows", {"files.tables", "files.rows"}),
+        ("from branchcrush.files.tables import read_json as read", {"files.tables"}),
+        ("from branchcrush import jobs", {"jobs"}),
+        ("import branchcrush.files.tables, json", {"files.tables"}),
+        ("def late():\n    from branchcrush.errors import FitError", {"errors"}),
+        # Modules of Python and others, some of the same names.
+        ("import statistics\nfrom files import tables\nimport errors", set()),
+        ("import branchcrush", set()),
+        ("from branchcrush import __version__\n# from branchcrush import jobs", set()),
+    ],
+)
+def test_direct_imports_are_the_modules_of_the_package(tmp_path, source, modules):
+    # Each in a folder of its own: what a file imports is read once.
+    (tmp_path / "script.py").write_text(source + "\n")
+    assert imported_modules(tmp_path / "script.py") == modules
+
+
+def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_path):
+    source = "from branchcrush.packings import placement\nfrom branchcrush.jobs import job\n"
+    (tmp_path / "script.py").write_text(source)
+    files = source_files(tmp_path / "script.py")
+    assert [str(Path(file).relative_to(PACKAGE)) for file in files] == [
+        "errors.py",
+        "packings/cell_grid.py",
+        "packings/geometry.py",
+        "packings/placement.py",
+    ]
+    assert source_files(file_of("errors")) == []
+
+
+# --- what Python loads ---------------------------------------------------------------------------
+
+PROGRAM = """
 import importlib, json, sys
 
 def ours():
     return [name for name in sys.modules if name.split(".")[0] == "branchcrush"]
 
-found = {}
-for module in json.loads(sys.argv[1]):
+slow, groups = json.loads(sys.argv[1])
+loaded = []
+for modules in groups:
     for name in ours():
         del sys.modules[name]
-    importlib.import_module("branchcrush." + module)
-    found[module] = [
-        name.partition(".")[2] for name in ours() if not hasattr(sys.modules[name], "__path__")
-    ], [name for name in json.loads(sys.argv[2]) if name in sys.modules]
-print(json.dumps(found))
+    for module in modules:
+        importlib.import_module("branchcrush." + module)
+    own = [name.partition(".")[2] for name in ours() if not hasattr(sys.modules[name], "__path__")]
+    loaded.append((own, [name for name in slow if name in sys.modules]))
+print(json.dumps(loaded))
 """
-    # The pure ones first: what a module loads from outside stays loaded.
-    modules = json.dumps(sorted(MODULES, key=lambda module: module not in PURE))
-    outside = json.dumps(["lammps", "mpi4py", "snakemake", "matplotlib", "pyarrow", "pydantic"])
-    arguments = [sys.executable, "-c", program, modules, outside]
+
+
+@pytest.fixture(scope="module")
+def loaded():
+    """What Python loads: of the pure modules, of the lean ones, and of each script in turn."""
+    pure = [module for module in MODULES if module.startswith(tuple(f"{room}." for room in PURE))]
+    # What is loaded from outside stays loaded: the scripts, which draw, come last.
+    scripts = [sorted(imported_modules(script) - {"jobs"}) for script in SCRIPTS]
+    groups = [pure, pure + list(LEAN), *scripts]
+    slow = ["lammps", "mpi4py", "snakemake", "matplotlib", "pydantic", "yaml"]
+    arguments = [sys.executable, "-c", PROGRAM, json.dumps([slow, groups])]
     result = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout)
 
 
-# --- direction -----------------------------------------------------------------------------------
+def test_neither_the_science_nor_the_jobs_of_seeds_load_what_is_slow(loaded):
+    assert [outside for _, outside in loaded[:2]] == [[], []]
 
 
-@pytest.mark.parametrize("module", sorted(PURE))
-def test_pure_module_imports_only_pure_modules(module):
-    # Of files, a room of samples takes only how a result says that there are no data.
-    allowed = {"files.tables"} if module.startswith("samples.") else set()
-    assert closure(module) <= PURE | {"errors"} | allowed
+def test_a_script_watches_all_that_python_loads_for_it_but_the_way_a_job_reports(loaded):
+    for script, (modules, _) in zip(SCRIPTS, loaded[2:], strict=True):
+        assert watched(script) == set(modules), script
 
 
-@pytest.mark.parametrize("module", sorted(PURE))
-def test_pure_module_is_made_of_numbers_alone(module):
-    outside = packages_imported_by(file_of(module)) - {"branchcrush"}
-    assert outside - sys.stdlib_module_names <= {"numpy", "scipy", "pandas"}
-    # Nor of files and processes.
-    assert not outside & {"os", "pathlib", "io", "json", "subprocess", "shutil", "tempfile"}
+# --- the house -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("module", sorted(PURE))
-def test_pure_module_loads_no_simulator_workflow_or_plots(module, loaded):
-    _, outside = loaded[module]
-    # pandas looks for pyarrow itself.
-    assert set(outside) <= {"pyarrow"}
-
-
-def test_only_one_module_loads_lammps():
-    assert importers_of("lammps", "mpi4py") == {"lammps.library"}
-
-
-def test_only_plotting_draws():
-    drawing = importers_of("matplotlib")
-    assert drawing
-    assert {module.partition(".")[0] for module in drawing} == {"plotting"}
-
-
-def test_package_does_not_know_the_workflow():
-    assert importers_of("workflow", "snakemake") == set()
-
-
-def test_no_two_modules_import_each_other():
-    graph = {module: imported_modules(file_of(module)) for module in MODULES}
-    assert set(TopologicalSorter(graph).static_order()) >= set(MODULES)
-
-
-# --- what a job depends on -----------------------------------------------------------------------
-
-
-def test_files_of_a_module_are_those_of_all_it_imports_in_turn():
-    assert closure("samples.convergence") == {
-        "samples.convergence",
-        "samples.ensemble",
-        "statistics.power_law",
-        "statistics.intervals",
-        "errors",
-    }
-    assert closure("packings.placement") == {
-        "packings.placement",
-        "packings.cell_grid",
-        "packings.geometry",
-        "errors",
-    }
-    assert source_files(file_of("errors")) == []
-
-
-def test_files_are_named_once_in_order_and_exist():
-    files = source_files(file_of("lammps.compression"))
-    assert files == sorted(set(files))
-    assert all(Path(file).is_file() for file in files)
-
-
-def test_direct_imports_leave_out_what_those_import():
-    assert imported_modules(file_of("branches.lengths")) == {
-        "gradings.distribution",
-        "packings.geometry",
-    }
-    assert imported_modules(file_of("loading.states")) == {
-        "packings.contact_laws",
-        "packings.contacts",
-        "packings.geometry",
-        "errors",
-    }
-
-
-@every_module
-def test_files_of_a_module_are_all_that_python_loads_for_it(module, loaded):
-    modules, _ = loaded[module]
-    late = closure(LATE[module]) if module in LATE else set()
-    assert closure(module) == set(modules) | late
-
-
-SCRIPTS = sorted(REPOSITORY.glob("workflow/scripts/*.py"))
-
-
-@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
-def test_a_script_watches_all_it_runs_but_the_way_a_job_reports(script):
-    assert "jobs" in imported_modules(script)
-    watched = {name_of(file) for file in source_files(script)}
-    assert watched == closure(*imported_modules(script) - {"jobs"})
+def test_every_script_is_a_job():
+    assert [script for script in SCRIPTS if "jobs" not in imported_modules(script)] == []
 
 
 def test_every_module_is_used_by_the_workflow_or_a_command():
-    sources = [REPOSITORY / "Snakefile", *REPOSITORY.glob("workflow/**/*.smk"), *SCRIPTS]
     makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
     used = set(re.findall(r"-m branchcrush\.([a-z_.]+)", makefile))
-    for source in sources:
-        text = source.read_text(encoding="utf-8")
-        if source.suffix == ".py":
-            used |= imported_modules(source)
-        else:
-            used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", text))
-    assert closure(*used) == set(MODULES)
+    used = used.union(*map(imported_modules, SCRIPTS))
+    for source in [REPOSITORY / "Snakefile", *REPOSITORY.glob("workflow/**/*.smk")]:
+        used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", source.read_text("utf-8")))
+    assert closure(used) == set(MODULES)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_begins_with_its_manual_and_imports_nothing(room):
+    source = (PACKAGE / room / "__init__.py").read_text(encoding="utf-8")
+    statements = ast.parse(source).body
+    assert len(statements) == 1
+    manual = ast.literal_eval(statements[0].value)
+    assert isinstance(manual, str) and len(manual.splitlines()) > 3
+
+
+def packages_named_in(file):
+    """Return the packages that a file imports, also by `import_module` and `__import__`."""
+    packages = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            packages |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            packages.add(node.module)
+        elif isinstance(node, ast.Call) and node.args:
+            called = getattr(node.func, "id", getattr(node.func, "attr", None))
+            if called in ("import_module", "__import__") and isinstance(node.args[0], ast.Constant):
+                packages.add(node.args[0].value)
+    return {name.partition(".")[0] for name in packages}
+
+
+def test_only_one_module_loads_lammps_and_its_mpi_by_whatever_way():
+    loading = {
+        module for module in MODULES if packages_named_in(file_of(module)) & {"lammps", "mpi4py"}
+    }
+    assert loading == {"lammps.library"}

@@ -14,18 +14,12 @@ with job(snakemake.log[0]):
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     origin = provenance(sample=name, seed=seed, ranks=ranks, config=params.sample)
-    sample, rng = sample_of(params.sample), np.random.default_rng(seed)
-    packing = placed_packing(sample, rng)
+    sample = sample_of(params.sample)
+    packing = placed_packing(sample, np.random.default_rng(seed))
     write_packing(output.packing, *packing, origin)
     write_data_file(output.data, *packing)
-    variables = sample_variables(sample, packing.radii)
-    result = compress(
-        *packing,
-        variables,
-        inputs=Path(snakemake.input.inputs[0]).parent,
-        folder=Path(output.path).parent,
-        log=snakemake.log[0],
-        ranks=ranks,
-    )
-    for kind, table in result._asdict().items():
+    inputs, folder = Path(snakemake.input.inputs[0]).parent, Path(output.path).parent
+    variables, log = sample_variables(sample, packing.radii), snakemake.log[0]
+    tables = compress(*packing, variables, inputs=inputs, folder=folder, log=log, ranks=ranks)
+    for kind, table in tables._asdict().items():
         write_table(output[kind], table, origin)

@@ -1,23 +1,118 @@
 """What a job makes of its plain settings: the grading that a section describes, the sample."""
 
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
 
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
 from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
-from branchcrush.gradings import curves as gradings
+from branchcrush.gradings.distribution import Grading
+from branchcrush.gradings.forms import (
+    fractal,
+    fuller,
+    lognormal,
+    loguniform,
+    normal,
+    uniform,
+    weibull,
+)
+from branchcrush.gradings.mixtures import from_radii, mixture, single
+from branchcrush.gradings.tables import from_density, from_percent_finer
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import contact_law
 
 
-def grading_of(section):
+@dataclass(frozen=True)
+class GradingValues:
+    """The values of a section, its sizes as radii in metres.
+
+    Examples
+    --------
+    >>> values = GradingValues({"size": "diameter", "unit": "mm", "min": 1.0, "alpha": 2.6})
+    >>> values.radius("min"), values["alpha"]
+    (0.0005, 2.6)
+    """
+
+    section: Mapping[str, Any]
+
+    def __getitem__(self, key: str) -> Any:
+        return self.section[key]
+
+    @property
+    def to_radius(self) -> float:
+        """What a size of the section is multiplied by [m]."""
+        return UNITS[self["unit"]] * (0.5 if self["size"] == "diameter" else 1.0)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The smallest and the largest radius [m]."""
+        return self.radius("min"), self.radius("max")
+
+    def radius(self, key: str) -> float:
+        """Return the size at a key as a radius [m]."""
+        return self[key] * self.to_radius
+
+    def table(self, read: Callable) -> tuple[np.ndarray, np.ndarray, list[float | None]]:
+        """Return the radii of the file [m], its other column, and where it is cut [m], if it is."""
+        ends = [self.section.get(key) for key in ("min", "max")]
+        size, other = read(self["file"], *ends)
+        cut = [None if end is None else end * self.to_radius for end in ends]
+        return size * self.to_radius, other, cut
+
+
+def _sieve(values: GradingValues) -> Grading:
+    radius, percent, cut = values.table(read_sieve_table)
+    return from_percent_finer(radius, percent, *cut)
+
+
+def _density(values: GradingValues) -> Grading:
+    radius, density, cut = values.table(read_density_table)
+    return from_density(radius, density, values["basis"], *cut)
+
+
+def _mixture(values: GradingValues) -> Grading:
+    parts = [grading_of(component["grading"]) for component in values["components"]]
+    weights = [component["weight"] for component in values["components"]]
+    return mixture(parts, weights, values["basis"])
+
+
+# How the values of a section make a grading, by its form. A form is added here, with its keys in
+# `config.gradings`, and in `gradings.forms`.
+FORMS: dict[str, Callable[[GradingValues], Grading]] = {
+    "uniform": lambda values: uniform(*values.ends, values["basis"]),
+    "loguniform": lambda values: loguniform(*values.ends, values["basis"]),
+    "normal": lambda values: normal(
+        values.radius("mean"), values.radius("standard_deviation"), *values.ends, values["basis"]
+    ),
+    "lognormal": lambda values: lognormal(
+        values.radius("median"),
+        values["geometric_standard_deviation"],
+        *values.ends,
+        values["basis"],
+    ),
+    "weibull": lambda values: weibull(
+        values.radius("scale"), values["shape"], *values.ends, values["basis"]
+    ),
+    "fractal": lambda values: fractal(*values.ends, values["alpha"]),
+    "fuller": lambda values: fuller(*values.ends, values["exponent"]),
+    "single": lambda values: single(values.radius("value")),
+    "sieve": _sieve,
+    "density": _density,
+    "radii": lambda values: from_radii(read_radii(values["file"]) * values.to_radius),
+    "mixture": _mixture,
+}
+
+
+def grading_of(section: Mapping[str, Any]) -> Grading:
     """Return the grading that a section of the configuration describes.
 
     Parameters
     ----------
-    section : dict
+    section : mapping
         From `model_dump` of a `config.gradings.GradingSection`. Names of files are relative to
         the working directory.
 
@@ -29,7 +124,8 @@ def grading_of(section):
     Raises
     ------
     GradingError
-        When a file or what it holds is not usable; one line for each problem.
+        When a file or what it holds is not usable; one line for each problem. When there is no
+        such form.
 
     Examples
     --------
@@ -37,60 +133,18 @@ def grading_of(section):
     >>> grading_of({**section, "min": 1.0, "max": 2.0}).support()
     (0.0005, 0.001)
     """
-    if section["form"] == "mixture":
-        parts = [grading_of(component["grading"]) for component in section["components"]]
-        weights = [component["weight"] for component in section["components"]]
-        return gradings.mixture(parts, weights, section["basis"])
-    to_radius = UNITS[section["unit"]] * (0.5 if section["size"] == "diameter" else 1.0)
-    if "file" in section:
-        return _from_file(section, to_radius)
-
-    def radius(key):
-        return section[key] * to_radius
-
-    if section["form"] == "single":
-        return gradings.single(radius("value"))
-    ends, by = (radius("min"), radius("max")), section["basis"]
-    match section["form"]:
-        case "uniform":
-            return gradings.uniform(*ends, by)
-        case "loguniform":
-            return gradings.loguniform(*ends, by)
-        case "normal":
-            return gradings.normal(radius("mean"), radius("standard_deviation"), *ends, by)
-        case "lognormal":
-            width = section["geometric_standard_deviation"]
-            return gradings.lognormal(radius("median"), width, *ends, by)
-        case "weibull":
-            return gradings.weibull(radius("scale"), section["shape"], *ends, by)
-        case "fractal":
-            return gradings.fractal(*ends, section["alpha"])
-        case "fuller":
-            return gradings.fuller(*ends, section["exponent"])
-    raise GradingError(f"there is no form of grading called {section['form']!r}")
-
-
-def _from_file(section, to_radius):
-    path, form = section["file"], section["form"]
-    if form == "radii":
-        return gradings.from_radii(read_radii(path) * to_radius)
-    ends = section.get("min"), section.get("max")
-    radius_ends = [None if end is None else end * to_radius for end in ends]
+    form, file = section["form"], section.get("file")
+    if form not in FORMS:
+        raise GradingError(f"there is no form of grading called {form!r}")
     try:
-        if form == "sieve":
-            opening, percent = read_sieve_table(path, *ends)
-            return gradings.from_percent_finer(opening * to_radius, percent, *radius_ends)
-        if form == "density":
-            size, density = read_density_table(path, *ends)
-            by = section["basis"]
-            return gradings.from_density(size * to_radius, density, by, *radius_ends)
+        return FORMS[form](GradingValues(section))
     except GradingError as error:
-        named = str(error) if str(path) in str(error) else f"{path}: {error}"
-        raise GradingError(named) from None
-    raise GradingError(f"there is no form of grading called {form!r}")
+        if file is None or str(file) in str(error):
+            raise
+        raise GradingError(f"{file}: {error}") from None
 
 
-def sample_of(settings: Mapping) -> Sample:
+def sample_of(settings: Mapping[str, Any]) -> Sample:
     """Return the sample that plain settings describe.
 
     Parameters

@@ -1,7 +1,9 @@
 """What a configuration asks of grains, files and folders: checked before any job starts."""
 
 import os
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -9,7 +11,7 @@ from branchcrush.config.build import grading_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
-from branchcrush.config.schema import REFINED, Sample, checked_config
+from branchcrush.config.schema import REFINED, Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.representativity import representativity
 from branchcrush.loading.targets import Loading, expected_overlap_ratio
@@ -28,12 +30,12 @@ _NEEDED = (
 )
 
 
-def checked_study(raw, folder="."):
+def checked_study(raw: Any, folder: str | PathLike[str] = ".") -> Config:
     """Return the configuration, sound in itself and in what it asks of files and folder.
 
     Parameters
     ----------
-    raw : dict
+    raw : object
         What the YAML file holds.
     folder : path-like
         Where results will go.
@@ -46,6 +48,15 @@ def checked_study(raw, folder="."):
     ------
     ConfigError
         With one line for each problem, all of them at once.
+
+    Examples
+    --------
+    >>> grading = {"form": "uniform", "basis": "number", "size": "radius", "unit": "mm",
+    ...            "min": 0.5, "max": 1}
+    >>> sample = {"grading": grading, "grains": 2, "loading": {"edge_reduction": 0.4}, "seeds": 2}
+    >>> checked_study({"samples": {"mine": sample}})
+    Traceback (most recent call last):
+    branchcrush.errors.ConfigError: config: samples.mine.grains = 2: ...
     """
     problems, config = [], None
     try:
@@ -66,17 +77,23 @@ def checked_study(raw, folder="."):
     return config
 
 
-def sample_problems(section):
+def sample_problems(section: Any) -> list[str]:
     """Return what is wrong with a sample that its keys alone do not tell, a line each.
 
     Parameters
     ----------
-    section : dict
+    section : object
         Of the YAML file; a part that is not valid in itself is passed over.
 
     Returns
     -------
     list of str
+        Each begins with the key below the sample.
+
+    Examples
+    --------
+    >>> sample_problems({"grading": {"form": "radii", "file": "no.txt"}})[0][:46]
+    "grading.file = 'no.txt': there is no such file"
     """
     if not isinstance(section, dict):
         return []
@@ -88,8 +105,14 @@ def sample_problems(section):
         sample = Sample.model_validate({**needed, "seeds": 1})
     except ValidationError:
         return []
+    return _grain_problems(sample, grading) + _stress_problems(sample, grading)
+
+
+def _grain_problems(sample, grading):
+    """Return what is wrong with the number of grains, for the sizes there are."""
     end = Loading(**sample.loading.plain()).end(sample.initial_solid_fraction)
     standing = representativity(grading, sample.grains, end)
+    problems = []
     if standing.verdict == "refuse" and not sample.allow_unrepresentative:
         problems.append(
             f"grains = {sample.grains}: {standing.message}; or set allow_unrepresentative: true, "
@@ -101,18 +124,23 @@ def sample_problems(section):
             f"m, smaller than the largest grain of {standing.expected_largest_diameter:.3g} m: use "
             "more grains or load less"
         )
-    target, value = sample.loading.target
-    if target == "mean_stress":
-        law = contact_law(**sample.contact.model_dump())
-        radius = float(grading.mass_ppf(0.5))
-        overlap = expected_overlap_ratio(value[-1], radius, law)
-        if overlap > _DEEPEST_OVERLAP:
-            problems.append(
-                f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
-                f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
-                f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
-            )
     return problems
+
+
+def _stress_problems(sample, grading):
+    """Return whether the largest stress would press the grains into each other."""
+    target, value = sample.loading.target
+    if target != "mean_stress":
+        return []
+    radius = float(grading.mass_ppf(0.5))
+    overlap = expected_overlap_ratio(value[-1], radius, contact_law(**sample.contact.model_dump()))
+    if overlap <= _DEEPEST_OVERLAP:
+        return []
+    return [
+        f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
+        f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
+        f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
+    ]
 
 
 def _grading(raw):

@@ -1,7 +1,7 @@
 """What the sections of the configuration have in common: numbers that say what they allow."""
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo
 from pydantic_core import PydanticCustomError
@@ -37,24 +37,25 @@ class Number:
 
     def __init__(
         self,
-        above=None,
-        least=None,
-        below=None,
-        most=None,
-        whole=False,
-        unit="",
-        unit_of=None,
-        hint="",
-    ):
+        above: float | None = None,
+        least: float | None = None,
+        below: float | None = None,
+        most: float | None = None,
+        whole: bool = False,
+        unit: str = "",
+        unit_of: str | None = None,
+        hint: str = "",
+    ) -> None:
         self.above, self.least, self.below, self.most = above, least, below, most
         self.whole, self.unit, self.unit_of, self.hint = whole, unit, unit_of, hint
 
     @property
-    def allowed(self):
+    def allowed(self) -> str:
         """What may be given, in words."""
         return self._in_words(self.unit)
 
     def _in_words(self, unit):
+        """Return what may be given, with the unit."""
         words = "must be a whole number" if self.whole else "must be a number"
         if self.least is not None:
             words += f" from {_plain(self.least)}"
@@ -65,8 +66,25 @@ class Number:
             words += " " + " and ".join(given)
         return f"{words} {unit}".rstrip() + self.hint
 
-    def __call__(self, value, info: ValidationInfo):
-        """Return the number, or refuse it with all that is allowed."""
+    def __call__(self, value: Any, info: ValidationInfo) -> float:
+        """Return the number, or refuse it with all that is allowed.
+
+        Parameters
+        ----------
+        value : object
+            What the YAML file holds at the key.
+        info : pydantic.ValidationInfo
+            Of the section so far, where the unit may be.
+
+        Returns
+        -------
+        float, or int for a whole number
+
+        Raises
+        ------
+        PydanticCustomError
+            From `refusal`.
+        """
         number = number_of(value)
         if number is None or not self._within(number):
             unit = info.data.get(self.unit_of, "") if self.unit_of else self.unit
@@ -85,8 +103,17 @@ class Number:
         )
 
 
-def number_of(value):
+def number_of(value: Any) -> float | None:
     """Return the finite number that a value of the YAML file is or spells, or None.
+
+    Parameters
+    ----------
+    value : object
+
+    Returns
+    -------
+    float or None
+        A whole number stays an int.
 
     Examples
     --------
@@ -103,8 +130,17 @@ def number_of(value):
         return None
 
 
-def one_line(key):
+def one_line(key: Any) -> str:
     r"""Return a key as text that stays on its line, whatever it holds.
+
+    Parameters
+    ----------
+    key : object
+        Of the YAML file, where a key need not be text.
+
+    Returns
+    -------
+    str
 
     Examples
     --------
@@ -115,7 +151,7 @@ def one_line(key):
     return text if text.isprintable() else repr(text)[1:-1]
 
 
-def refusal(words, **details):
+def refusal(words: str, **details: Any) -> PydanticCustomError:
     """Return the error of a validator that says what is allowed.
 
     Parameters
@@ -125,6 +161,16 @@ def refusal(words, **details):
     **details
         unit: of the value; key, value: below the key that is validated, the one to name and show;
         of_section: True names the section of the key, and no value.
+
+    Returns
+    -------
+    PydanticCustomError
+        To be raised.
+
+    Examples
+    --------
+    >>> print(refusal("must be above min 2 m", unit="m"))
+    must be above min 2 m
     """
     return PydanticCustomError("refusal", "{words}", {"words": words, **details})
 
@@ -133,8 +179,27 @@ def _plain(number):
     return f"{number:g}" if isinstance(number, float) else str(number)
 
 
-def number(kind=float, **bounds):
-    """Return the type of a key that holds a number: keywords as those of `Number`."""
+def number(kind: type[float] = float, **bounds: Any) -> Any:
+    """Return the type of a key that holds a number.
+
+    Parameters
+    ----------
+    kind : {float, int}
+    **bounds
+        As those of `Number`.
+
+    Returns
+    -------
+    type
+        For the annotation of the key.
+
+    Examples
+    --------
+    >>> class Cell(Section):
+    ...     grains: number(int, least=2)
+    >>> Cell(grains="1e3").grains
+    1000
+    """
     return Annotated[kind, BeforeValidator(Number(whole=kind is int, **bounds))]
 
 

@@ -1,5 +1,6 @@
-"""The configuration file as such: is it there, is it text, is it YAML, is no key given twice?"""
+"""The configuration file as such: whether it is there, is text, is YAML, has no key twice."""
 
+from os import PathLike
 from pathlib import Path
 
 import yaml
@@ -22,7 +23,7 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def config_file_problem(path):
+def config_file_problem(path: str | PathLike[str]) -> str | None:
     """Return what keeps a file from being read as a configuration, or None.
 
     Parameters
@@ -32,6 +33,7 @@ def config_file_problem(path):
     Returns
     -------
     str or None
+        One line, with what to do.
 
     Examples
     --------
@@ -67,6 +69,7 @@ def config_file_problem(path):
 
 
 def _contains_itself(content, above=()):
+    """Return whether a section is inside itself, which an alias of YAML can do."""
     if not isinstance(content, (dict, list)):
         return False
     below = content.values() if isinstance(content, dict) else content

@@ -1,9 +1,10 @@
 """The configuration of a grading: one section for each form, each with its size, unit and basis."""
 
 import math
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, field_validator
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
 from branchcrush.config.fields import Positive, Section, number, refusal
 from branchcrush.config.units import UNITS
@@ -39,7 +40,7 @@ class _Range(_Sizes):
 
     @field_validator("max")
     @classmethod
-    def _ordered(cls, largest, info):
+    def _ordered(cls, largest: float | None, info: ValidationInfo) -> float | None:
         return _above_min(largest, info.data)
 
 
@@ -67,7 +68,7 @@ class NormalGrading(_Range):
 
     @field_validator("standard_deviation")
     @classmethod
-    def _within(cls, width, info):
+    def _within(cls, width: float, info: ValidationInfo) -> float:
         unit = info.data.get("unit", "")
         _check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
         return width
@@ -83,7 +84,7 @@ class LognormalGrading(_Range):
 
     @field_validator("geometric_standard_deviation")
     @classmethod
-    def _within(cls, width, info):
+    def _within(cls, width: float, info: ValidationInfo) -> float:
         s = math.log(width)
         _check_share("lognorm", info.data, "median", lambda median: {"s": s, "scale": median})
         return width
@@ -99,7 +100,7 @@ class WeibullGrading(_Range):
 
     @field_validator("shape")
     @classmethod
-    def _within(cls, shape, info):
+    def _within(cls, shape: float, info: ValidationInfo) -> float:
         _check_share("weibull_min", info.data, "scale", lambda scale: {"c": shape, "scale": scale})
         return shape
 
@@ -134,7 +135,7 @@ class _Table(_Sizes):
 
     @field_validator("max")
     @classmethod
-    def _ordered(cls, largest, info):
+    def _ordered(cls, largest: float | None, info: ValidationInfo) -> float | None:
         return _above_min(largest, info.data)
 
 
@@ -196,7 +197,7 @@ class MixtureGrading(Section):
 
     @field_validator("components", mode="before")
     @classmethod
-    def _several(cls, components):
+    def _several(cls, components: Any) -> list:
         if not isinstance(components, list) or len(components) < 2:
             raise refusal(_SEVERAL)
         return components
@@ -205,8 +206,18 @@ class MixtureGrading(Section):
 GradingSection = Annotated[_Simple | MixtureGrading, Field(discriminator="form")]
 
 
-def grading_data_files(section):
+def grading_data_files(section: Mapping[str, Any]) -> list[str]:
     """Return the names of the files that a section of the configuration reads.
+
+    Parameters
+    ----------
+    section : mapping
+        From `model_dump` of a `GradingSection`.
+
+    Returns
+    -------
+    list of str
+        As they stand there; those of a mixture in the order of its parts.
 
     Examples
     --------
@@ -219,6 +230,7 @@ def grading_data_files(section):
 
 
 def _above_min(largest, data):
+    """Return the largest size, or refuse one that is not above the smallest."""
     smallest, unit = data.get("min"), data.get("unit")
     if largest is not None and smallest is not None and smallest >= largest:
         raise refusal(f"must be above min {smallest:g} {unit or ''}".rstrip(), unit=unit)

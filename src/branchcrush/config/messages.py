@@ -3,7 +3,9 @@
 import math
 import types
 import typing
+from collections.abc import Mapping
 from difflib import get_close_matches
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -23,7 +25,7 @@ _ALLOWED = {
 _LONGEST = 100
 
 
-def problem(detail, root):
+def problem(detail: Mapping[str, Any], root: type[BaseModel]) -> str:
     """Return one problem that pydantic found as one line, with the key as the user typed it.
 
     Parameters
@@ -37,6 +39,13 @@ def problem(detail, root):
     -------
     str
         Without pydantic's own names of types and forms.
+
+    Examples
+    --------
+    >>> class Root(BaseModel):
+    ...     grains: int
+    >>> problem({"type": "missing", "loc": ("grains",), "input": {}}, Root)
+    'grains: missing; give it a value'
     """
     path, section, kind_of_value = _typed_path(detail["loc"], root)
     kind, value, context = detail["type"], detail["input"], detail.get("ctx", {})
@@ -68,16 +77,25 @@ def problem(detail, root):
     return f"{_key(path)} = {shown(value)}: {_ALLOWED.get(kind, 'has no meaning here')}"
 
 
-def shown(value):
+def shown(value: Any) -> str:
     """Return a value of the YAML file as a user would write it, on one line.
+
+    Parameters
+    ----------
+    value : object
+
+    Returns
+    -------
+    str
+        At most 100 characters.
 
     Examples
     --------
     >>> shown([True, None, 0.1, "a", float("nan")])
     "[true, nothing, 0.1, 'a', nan]"
     """
-    text = _yaml(value)
-    return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
+    whole = _yaml(value)
+    return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
 
 
 def _yaml(value):
@@ -138,7 +156,7 @@ def _forms(kind):
     if typing.get_origin(kind) is not typing.Annotated:
         return {}
     union, *extras = typing.get_args(kind)
-    chooser = next((e.discriminator for e in extras if getattr(e, "discriminator", None)), None)
+    chooser = next(filter(None, (getattr(extra, "discriminator", None) for extra in extras)), None)
     if chooser is None or typing.get_origin(union) not in (typing.Union, types.UnionType):
         return {}
     return {

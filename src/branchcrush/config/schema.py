@@ -1,7 +1,7 @@
 """The configuration: its keys, types, units, defaults and checks."""
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import (
     AfterValidator,
@@ -9,6 +9,7 @@ from pydantic import (
     Field,
     StrictBool,
     ValidationError,
+    ValidationInfo,
     field_validator,
 )
 
@@ -74,7 +75,7 @@ class Loading(Section):
 
     @field_validator("states")
     @classmethod
-    def _of_strains(cls, states, info):
+    def _of_strains(cls, states: int | None, info: ValidationInfo) -> int | None:
         if states is not None and info.data.get("mean_stress") is not None:
             raise refusal(
                 "belongs to a strain target; with mean_stress a state is saved at each stress: "
@@ -84,7 +85,7 @@ class Loading(Section):
 
     @field_validator("unloading")
     @classmethod
-    def _one_target(cls, unloading, info):
+    def _one_target(cls, unloading: bool, info: ValidationInfo) -> bool:
         # A target that is wrong is not in the data, and was given all the same.
         given = [name for name in _TARGETS if info.data.get(name, "wrong") is not None]
         if len(given) != 1:
@@ -95,12 +96,19 @@ class Loading(Section):
         return unloading
 
     @property
-    def target(self):
-        """Name and value of the target."""
-        return next((n, getattr(self, n)) for n in _TARGETS if getattr(self, n) is not None)
+    def target(self) -> tuple[str, float | list[float]]:
+        """Name and value of the target: a share [-], or increasing stresses [Pa]."""
+        given = ((name, getattr(self, name)) for name in _TARGETS)
+        return next((name, value) for name, value in given if value is not None)
 
-    def plain(self):
-        """Return the section as the loading of a job takes it."""
+    def plain(self) -> dict[str, Any]:
+        """Return the section as `loading.targets.Loading` takes it, plain values by name.
+
+        Examples
+        --------
+        >>> Loading(solid_fraction=0.7).plain()["value"]
+        0.7
+        """
         name, value = self.target
         return {
             "target": name,
@@ -128,7 +136,7 @@ class Sample(Section):
 
     @field_validator("loading")
     @classmethod
-    def _compresses(cls, loading, info):
+    def _compresses(cls, loading: Loading, info: ValidationInfo) -> Loading:
         start, approach = info.data.get("initial_solid_fraction"), loading.approach_solid_fraction
         name, value = loading.target
         if start is None:
@@ -154,24 +162,32 @@ class Sample(Section):
 
     @field_validator("seeds", mode="before")
     @classmethod
-    def _count_or_list(cls, seeds, info):
+    def _count_or_list(cls, seeds: Any, info: ValidationInfo) -> list:
         if isinstance(seeds, list) and 0 < len(seeds) <= _MOST_SEEDS:
             return seeds
         return list(range(1, _SEEDS(seeds, info) + 1))
 
     @field_validator("seeds")
     @classmethod
-    def _distinct(cls, seeds):
+    def _distinct(cls, seeds: list[int]) -> list[int]:
         twice = sorted({seed for seed in seeds if seeds.count(seed) > 1})
         if twice:
             which = ", ".join(map(str, twice))
             raise refusal(f"must have every seed once; more than once: {which}")
         return seeds
 
-    def settings(self, refinement=1):
+    def settings(self, refinement: int = 1) -> dict[str, Any]:
         """Return the sample as plain values; a refinement takes that many times the steps.
 
-        A refined sample has the first `refined_seeds` of the seeds.
+        Parameters
+        ----------
+        refinement : int
+            A refined sample has the first `refined_seeds` of the seeds.
+
+        Returns
+        -------
+        dict
+            As `config.build.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
         return {
@@ -206,6 +222,7 @@ class Figures(Section):
 
 
 def _usable_name(name):
+    """Return the name of a sample, or refuse one that no folder can have."""
     if not isinstance(name, str):
         raise refusal("a name must be text: put it in quotes")
     if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name) or len(name) > _LONGEST_NAME:
@@ -238,7 +255,7 @@ class Config(Section):
     figures: Figures = Figures()
 
 
-def checked_config(raw):
+def checked_config(raw: Any) -> Config:
     """Return the configuration with types converted and defaults filled in.
 
     Every key alone and every section in itself; `config_checks` asks what needs the grains, the
@@ -246,7 +263,7 @@ def checked_config(raw):
 
     Parameters
     ----------
-    raw : dict
+    raw : object
         What the YAML file holds.
 
     Returns

@@ -1,6 +1,7 @@
 """The mean stresses of a loading, as a user may give them: a number, a list, or a range."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -13,20 +14,22 @@ _ALLOWED = (
 )
 
 
-def increasing_stresses(value):
+def increasing_stresses(value: Any) -> list[float] | None:
     """Return the mean stresses of a config key as an increasing list [Pa].
 
     Parameters
     ----------
     value : float, list, or dict with from, to and states
+        What the YAML file holds [Pa].
 
     Returns
     -------
     list of float
+        None for none.
 
     Raises
     ------
-    ValueError
+    PydanticCustomError
         Saying what is allowed.
 
     Examples
@@ -39,18 +42,19 @@ def increasing_stresses(value):
     if isinstance(value, dict):
         return _range(value)
     items = value if isinstance(value, list) else [value]
-    found = [_stress(item) for item in items]
-    if not found:
+    stresses = [_stress(item) for item in items]
+    if not stresses:
         raise _refused("the list is empty")
-    if len(found) > _MOST_STATES:
-        raise _refused(f"{len(found)} stresses are more than {_MOST_STATES}")
-    for low, high in pairwise(found):
+    if len(stresses) > _MOST_STATES:
+        raise _refused(f"{len(stresses)} stresses are more than {_MOST_STATES}")
+    for low, high in pairwise(stresses):
         if low >= high:
             raise _refused(f"{high:g} does not rise above {low:g} before it")
-    return found
+    return stresses
 
 
 def _range(value):
+    """Return the stresses of a range, even in the logarithm."""
     if set(value) != _RANGE:
         raise _refused(f"its keys are {', '.join(map(one_line, value)) or 'none'}")
     states = number_of(value["states"])
@@ -59,7 +63,7 @@ def _range(value):
     ends = [_stress(value[end]) for end in ("from", "to")]
     if ends[0] >= ends[1]:
         raise _refused(f"from {ends[0]:g} Pa must be below to {ends[1]:g} Pa")
-    return np.geomspace(*ends, int(states)).tolist()  # even in the logarithm
+    return np.geomspace(*ends, int(states)).tolist()
 
 
 def _stress(value):

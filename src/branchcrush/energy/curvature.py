@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.energy.designs import linear_design, log_length
+from branchcrush.energy.designs import LinearDesign, log_length, prepared
 from branchcrush.energy.predictors import BranchColumns
 from branchcrush.energy.state_fit import Curvature
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
@@ -53,7 +53,8 @@ def curvature(
         x = log_length(small, large) - centre
         return [x, x * x]
 
-    fit = gamma_fit(seeds, linear_design(columns, [3.0, 0.0]))
+    design, made = prepared(LinearDesign(columns, [3.0, 0.0]), seeds)
+    fit = gamma_fit(made, design)
 
     def wanted(theta: NDArray) -> NDArray:
         slope, bend = theta[:, 1], theta[:, 2]

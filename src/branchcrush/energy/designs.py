@@ -3,17 +3,17 @@
 All are in logarithms of R/R_max.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-def linear_design(
-    columns: Callable[[NDArray, NDArray], list[NDArray]], start: list[float]
-) -> Callable[..., Any]:
-    """Return the design of a predictor that is linear in its parameters.
+@dataclass(frozen=True)
+class LinearDesign:
+    """The design of a predictor that is linear in its parameters.
 
     Parameters
     ----------
@@ -23,28 +23,66 @@ def linear_design(
     start : list of float
         Where these parameters start.
 
-    Returns
-    -------
-    callable
-        As `statistics.gamma_regression.gamma_fit` takes it.
-
     Examples
     --------
-    >>> design = linear_design(lambda small, large: [small], [2.0])
+    >>> design = LinearDesign(lambda small, large: [small], [2.0])
     >>> eta, slope = design(np.array([1.0, 3.0]), np.array([0.5]), np.array([0.7]))
     >>> design(None), eta.tolist(), slope.tolist()
     ([0.0, 2.0], [2.5], [[1.0, 0.5]])
     """
 
-    def design(
-        theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
-    ) -> Any:
-        if theta is None or small is None or large is None:
-            return [0.0, *start]
-        slope = np.stack([np.ones_like(small), *columns(small, large)], axis=1)
-        return slope @ theta, slope
+    columns: Callable[[NDArray, NDArray], Sequence[NDArray]]
+    start: Sequence[float]
 
-    return design
+    def __call__(
+        self, theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
+    ) -> Any:
+        """Return eta and its slope, as `statistics.gamma_regression.gamma_fit` takes them."""
+        if theta is None or small is None or large is None:
+            return [0.0, *self.start]
+        return _linear(theta, [np.ones_like(small), *self.columns(small, large)])
+
+
+def prepared(
+    design: Callable[..., Any], seeds: Sequence[tuple[NDArray, ...]]
+) -> tuple[Callable[..., Any], Sequence[tuple[NDArray, ...]]]:
+    """Return a design and seeds that give the same fit, with what need be made only once made.
+
+    A fit asks for the columns of a linear design several times, and they are logarithms.
+
+    Parameters
+    ----------
+    design : callable
+        As `statistics.gamma_regression.gamma_fit` takes it.
+    seeds : list of tuple
+        From `energy.predictors.branch_columns`, of each seed.
+
+    Returns
+    -------
+    design : callable
+    seeds : list of tuple
+
+    Examples
+    --------
+    >>> reduced = LinearDesign(lambda small, large: [log_reduced_radius(small, large)], [2.0])
+    >>> design, seeds = prepared(reduced, [(np.log([0.5]), np.log([0.5]), np.array([7.0]))])
+    >>> design(None), np.exp(seeds[0][0]).round(12).tolist(), seeds[0][-1].tolist()
+    ([0.0, 2.0], [0.25], [7.0])
+    """
+    if not isinstance(design, LinearDesign) or not design.start:
+        return design, seeds
+    start = [0.0, *design.start]
+
+    def of_columns(theta: NDArray | None, *columns: NDArray) -> Any:
+        return start if theta is None else _linear(theta, [np.ones_like(columns[0]), *columns])
+
+    made = [(*design.columns(small, large), energy) for small, large, energy in seeds]
+    return of_columns, made
+
+
+def _linear(theta: NDArray, columns: Sequence[NDArray]) -> tuple[NDArray, NDArray]:
+    slope = np.stack(columns, axis=1)
+    return slope @ theta, slope
 
 
 def log_length(small: NDArray, large: NDArray) -> NDArray:

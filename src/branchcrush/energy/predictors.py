@@ -12,14 +12,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.energy.designs import (
+    LinearDesign,
     grain_sizes,
-    linear_design,
     log_length,
     log_reduced_radius,
+    prepared,
 )
 from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.errors import FitError
-from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
+from branchcrush.statistics.gamma_regression import (
+    deviance,
+    fitted_parameters,
+    gamma_fit,
+    parameter_intervals,
+)
 from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
 
 # Of one seed: ln(r_min/R_max), ln(r_max/R_max) and energy [J] of each branch.
@@ -60,7 +66,7 @@ PREDICTORS = {
     "branch_length": Predictor(
         "A l^n",
         ("exponent",),
-        linear_design(lambda s, g: [log_length(s, g)], [3.0]),
+        LinearDesign(lambda s, g: [log_length(s, g)], [3.0]),
         label="branch length l",
         color="#1f4e79",
         marker="o",
@@ -68,7 +74,7 @@ PREDICTORS = {
     "reduced_radius": Predictor(
         "A (r1 r2/(r1 + r2))^n",
         ("exponent",),
-        linear_design(lambda s, g: [log_reduced_radius(s, g)], [2.0]),
+        LinearDesign(lambda s, g: [log_reduced_radius(s, g)], [2.0]),
         label="reduced radius R*",
         color="#3a7d44",
         marker="D",
@@ -76,7 +82,7 @@ PREDICTORS = {
     "both_radii": Predictor(
         "A r_min^a r_max^b",
         ("a", "b"),
-        linear_design(lambda s, g: [s, g], [1.0, 2.0]),
+        LinearDesign(lambda s, g: [s, g], [1.0, 2.0]),
         label=r"$r_{min}^a\, r_{max}^b$",
         color="#8a5aa5",
         marker="^",
@@ -92,14 +98,14 @@ PREDICTORS = {
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",
         ("s", "g", "ss", "sg", "gg"),
-        linear_design(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
+        LinearDesign(lambda s, g: [s, g, s * s, s * g, g * g], [1.0, 2.0, 0.0, 0.0, 0.0]),
         label="any smooth function of both",
         color="#444444",
         marker="|",
     ),
 }
 # Nothing but a scale: what is explained is explained beyond it.
-_CONSTANT = linear_design(lambda s, g: [], [])
+_CONSTANT = LinearDesign(lambda s, g: [], [])
 
 
 def branch_columns(
@@ -174,15 +180,16 @@ def compared_predictors(
     by_length: NDArray | None = None
     fitted: list[FittedPredictor] = []
     for name, predictor in PREDICTORS.items():
+        design, made = prepared(predictor.design, seeds)
         try:
-            fit = gamma_fit(seeds, predictor.design)
+            fit = gamma_fit(made, design)
         except FitError as error:
             fitted.append(FittedPredictor.without(name, predictor.formula, str(error)))
             continue
         limits = parameter_intervals(fit, rng=Resampling.PREDICTORS.rng(), **options)
         # The first parameter is the scale.
         parameters = {key: limits.part(k) for k, key in enumerate(predictor.names, start=1)}
-        left_out, reason = _judged(seeds, predictor.design, fit.parameters)
+        left_out, reason = _judged(made, design, fit.parameters)
         if name == "branch_length":
             by_length = left_out
         fitted.append(
@@ -203,7 +210,7 @@ def compared_predictors(
 
 
 def _judged(
-    seeds: Sequence[BranchColumns], design: Callable[..., Any], start: NDArray | None = None
+    seeds: Sequence[tuple[NDArray, ...]], design: Callable[..., Any], start: NDArray | None = None
 ) -> tuple[NDArray, str]:
     """Return the deviance of every seed from the fit to the others, and why if there is none."""
     try:
@@ -213,7 +220,7 @@ def _judged(
 
 
 def _left_out(
-    seeds: Sequence[BranchColumns], design: Callable[..., Any], start: NDArray | None
+    seeds: Sequence[tuple[NDArray, ...]], design: Callable[..., Any], start: NDArray | None
 ) -> NDArray:
     if len(seeds) == 1:
         raise FitError("one seed: there is none to leave out")
@@ -221,7 +228,7 @@ def _left_out(
     for group in np.array_split(np.arange(len(seeds)), min(len(seeds), _FOLDS)):
         others = [seed for number, seed in enumerate(seeds) if number not in group]
         try:
-            parameters = gamma_fit(others, design, start).parameters
+            parameters = fitted_parameters(others, design, start)
         except FitError as error:
             raise FitError(f"without some of the seeds: {error}") from error
         for number in group:

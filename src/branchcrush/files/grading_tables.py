@@ -1,14 +1,17 @@
-"""Gradings from files, and the grading that a section of the configuration describes."""
+"""Gradings as files hold them: the curve of a sieving, a density, the sizes of single grains."""
 
 from itertools import pairwise
+from os import PathLike
 
 import numpy as np
 
 from branchcrush.files.rows import read_rows, refuse
 
 
-def read_sieve_table(path, smallest=None, largest=None):
-    """Return the sieve curve of a file of two columns: opening and percent finer by mass.
+def read_sieve_table(
+    path: str | PathLike[str], smallest: float | None = None, largest: float | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    r"""Return the sieve curve of a file of two columns: opening and percent finer by mass.
 
     Parameters
     ----------
@@ -26,6 +29,16 @@ def read_sieve_table(path, smallest=None, largest=None):
     ------
     GradingError
         When it is no such file; one line for each problem, with the line of the file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "sand.csv")
+    ...     _ = path.write_text("opening,finer\n2,100\n0.5,0\n")
+    ...     opening, percent = read_sieve_table(path)
+    ...     opening.tolist(), percent.tolist()
+    ([0.5, 2.0], [0.0, 100.0])
     """
     rows, problems = _table(path, ("opening", "percent finer"), 100.0)
     problems += [
@@ -42,8 +55,10 @@ def read_sieve_table(path, smallest=None, largest=None):
     return opening, percent
 
 
-def read_density_table(path, smallest=None, largest=None):
-    """Return the density of a file of two columns: size and density, of any scale.
+def read_density_table(
+    path: str | PathLike[str], smallest: float | None = None, largest: float | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    r"""Return the density of a file of two columns: size and density, of any scale.
 
     Parameters
     ----------
@@ -60,6 +75,16 @@ def read_density_table(path, smallest=None, largest=None):
     ------
     GradingError
         When it is no such file; one line for each problem, with the line of the file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "sand.csv")
+    ...     _ = path.write_text("1,3\n2,1\n")
+    ...     size, density = read_density_table(path)
+    ...     size.tolist(), density.tolist()
+    ([1.0, 2.0], [3.0, 1.0])
     """
     rows, problems = _table(path, ("size", "density"), np.inf)
     if rows and not problems and not any(row.values[1] for row in rows):
@@ -71,8 +96,8 @@ def read_density_table(path, smallest=None, largest=None):
     return size, density
 
 
-def read_radii(path):
-    """Return the sizes of the grains in a file with one on each line, radii or diameters.
+def read_radii(path: str | PathLike[str]) -> np.ndarray:
+    r"""Return the sizes of the grains in a file with one on each line, radii or diameters.
 
     Parameters
     ----------
@@ -87,6 +112,15 @@ def read_radii(path):
     ------
     GradingError
         When it is no such file; one line for each problem, with the line of the file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "sand.csv")
+    ...     _ = path.write_text("2\n1.5\n2\n")
+    ...     read_radii(path).tolist()
+    [1.5, 2.0, 2.0]
     """
     rows, problems = read_rows(path, ("size",))
     problems += _not_positive(rows, "size")
@@ -123,6 +157,7 @@ def _table(path, names, most):
 
 
 def _not_positive(rows, name):
+    """Return which rows have no size above 0."""
     return [
         f"line {row.line}: {name} = {row.values[0]:g}; must be above 0: correct or remove it"
         for row in rows
@@ -131,6 +166,7 @@ def _not_positive(rows, name):
 
 
 def _wrong_range(rows, smallest, largest):
+    """Return what is wrong with the sizes that a curve is cut at."""
     problems = []
     first, last = rows[0], rows[-1]
     if smallest is not None and smallest >= last.values[0]:
@@ -147,6 +183,7 @@ def _wrong_range(rows, smallest, largest):
 
 
 def _wrong_ends(rows, smallest, largest):
+    """Return which end of a sieve curve is missing and not cut off."""
     problems = []
     (low, first), (high, last) = rows[0].values, rows[-1].values
     if last <= 1 and rows[-1].values[1] > 0:

@@ -2,6 +2,8 @@
 
 import csv
 import math
+from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,8 +21,8 @@ class Row(NamedTuple):
     values: tuple[float, ...]
 
 
-def read_rows(path, columns):
-    """Return the rows of a text file of numbers, and what is wrong with its other lines.
+def read_rows(path: str | PathLike[str], columns: Sequence[str]) -> tuple[list[Row], list[str]]:
+    r"""Return the rows of a text file of numbers, and what is wrong with its other lines.
 
     Columns are parted by semicolons, tabs, commas or blanks; with semicolons a comma is a decimal
     one. Lines of words above the numbers, blank lines, and what follows a # are passed over.
@@ -41,9 +43,19 @@ def read_rows(path, columns):
     ------
     GradingError
         When the file is missing, empty or no text.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "sand.csv")
+    ...     _ = path.write_text("opening; finer\n0,5; 0\n8; all\n")
+    ...     read_rows(path, ("opening", "finer"))
+    ([Row(line=2, values=(0.5, 0.0))],
+     ["line 3: finer = 'all' is no finite number; correct it or remove the line"])
     """
     rows, problems = [], []
-    for number, line in enumerate(_text(path).split("\n"), start=1):
+    for number, line in enumerate(_content(path).split("\n"), start=1):
         cells = _cells(line.partition("#")[0].strip())
         if not cells or (not rows and not problems and not any(map(_is_number, cells))):
             continue
@@ -54,8 +66,19 @@ def read_rows(path, columns):
     return rows, problems
 
 
-def refuse(path, problems):
+def refuse(path: str | PathLike[str], problems: Sequence[str]) -> None:
     """Raise GradingError with one line for each problem of a file; return if there is none.
+
+    Parameters
+    ----------
+    path : path-like
+        Begins each line.
+    problems : sequence of str
+        From `read_rows`; of more than 20 the others are counted.
+
+    Raises
+    ------
+    GradingError
 
     Examples
     --------
@@ -65,13 +88,15 @@ def refuse(path, problems):
     branchcrush.errors.GradingError: sand.csv, line 2: opening = 0
     """
     lines = [f"{path}, {problem}" for problem in problems[:_SHOWN]]
-    if len(problems) > _SHOWN:
-        lines.append(f"{path}: and {len(problems) - _SHOWN} more problems")
+    more = len(problems) - _SHOWN
+    if more > 0:
+        lines.append(f"{path}: and {more} more problem{'s' * (more != 1)}")
     if lines:
         raise GradingError("\n".join(lines))
 
 
-def _text(path):
+def _content(path):
+    """Return the text of a file, its lines ended by line feeds."""
     path = Path(path)
     if path.is_dir():
         raise GradingError(f"{path}: is a folder; give the name of a file in it")
@@ -97,6 +122,7 @@ def _text(path):
 
 
 def _cells(line):
+    """Return the words of a line, parted by the first mark that it has."""
     separator = next((mark for mark in ";\t," if mark in line), None)
     if separator is None:
         cells = line.split()
@@ -111,6 +137,7 @@ def _cells(line):
 
 
 def _wrong(cells, columns):
+    """Return what keeps cells from being one number for each column."""
     if len(cells) != len(columns):
         return [
             f"{len(cells)} column{'s' * (len(cells) != 1)}, {' | '.join(cells)}; must have "

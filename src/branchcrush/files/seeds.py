@@ -1,16 +1,30 @@
 """The files of one seed, read as its contact network is made of them."""
 
-from branchcrush.files.tables import read_packing, read_table
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from branchcrush.files.tables import Table, read_packing, read_table
 from branchcrush.packings.network import COLUMNS, VECTOR_COLUMNS, WALL_COLUMNS
 
 
-def read_contacts(files, number: int, *, vectors: bool = False):
+class SeedFiles(Protocol):
+    """The paths of all seeds of a sample, an entry a seed, as an input of Snakemake has them."""
+
+    packings: Sequence[str]
+    contacts: Sequence[str]
+    walls: Sequence[str]
+
+
+def read_contacts(
+    files: SeedFiles, number: int, *, vectors: bool = False
+) -> tuple[np.ndarray, Table, Table]:
     """Return radii, contacts and wall contacts of a seed, for `packings.network.state_network`.
 
     Parameters
     ----------
-    files : object
-        With lists of paths `packings`, `contacts` and `walls`, one entry a seed.
+    files : SeedFiles
     number : int
         Which seed, counted from 0.
     vectors : bool
@@ -18,9 +32,10 @@ def read_contacts(files, number: int, *, vectors: bool = False):
 
     Returns
     -------
-    radii : ndarray
+    radii : ndarray, shape (N,)
         [m]
     contacts, walls : DataFrame
+        A row for each contact and state, with the columns that a network needs.
     """
     _, radii, _ = read_packing(files.packings[number])
     columns = COLUMNS + VECTOR_COLUMNS if vectors else COLUMNS

@@ -1,23 +1,41 @@
 """Files in and out: tables, fits and packings, each with where it came from."""
 
-import contextlib
 import csv
 import io
 import json
-import math
-import os
+from collections.abc import Mapping, Sequence
+from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from branchcrush import __version__
+from branchcrush.files.encoding import arrow_array, cells, json_line, json_page
+from branchcrush.files.replacing import replacing
 
 # pandas is imported where it is needed: the jobs of the seeds write tables without it, and start in
 # half the time.
+if TYPE_CHECKING:
+    import pandas as pd
+
+# What `read_table` returns, for hints in rooms that do not import pandas.
+Table: TypeAlias = "pd.DataFrame"
 
 
-def provenance(**origin):
+def provenance(**origin: Any) -> dict[str, Any]:
     """Return what made a result: the version and, by name, sample, seed and config sections.
+
+    Parameters
+    ----------
+    **origin
+        What else is known, as plain values.
+
+    Returns
+    -------
+    dict
+        For `write_table`, `write_json` and `write_packing`.
 
     Examples
     --------
@@ -27,65 +45,87 @@ def provenance(**origin):
     return {"branchcrush": __version__, **origin}
 
 
-def write_table(path, table, origin):
+def study_provenance(samples: Mapping[str, Mapping], **origin: Any) -> dict[str, Any]:
+    """Return what made a result of all samples: the version and the settings of every one.
+
+    Parameters
+    ----------
+    samples : mapping
+        By name of the sample its settings, from `config.schema.Sample.settings`: the seeds are
+        among them.
+    **origin
+        What else is known, as plain values: sections of the configuration for all samples.
+
+    Returns
+    -------
+    dict
+        As `provenance`, with all samples under "samples".
+
+    Examples
+    --------
+    >>> origin = study_provenance({"sand": {"grains": 10, "seeds": [1, 2]}}, bins=20)
+    >>> origin["samples"]["sand"]["seeds"], origin["bins"]
+    ([1, 2], 20)
+    """
+    return provenance(samples={name: dict(sample) for name, sample in samples.items()}, **origin)
+
+
+def write_table(
+    path: str | PathLike[str],
+    table: "Table | Mapping[str, ArrayLike] | Sequence[Mapping[str, Any]]",
+    origin: Mapping[str, Any],
+) -> None:
     """Write a table as CSV, its provenance in a first comment line, or as Parquet.
+
+    A number has all its digits; in CSV one that is not known is an empty cell.
 
     Parameters
     ----------
     path : path-like
         Ends in .csv or .parquet.
     table : DataFrame, dict of columns, or sequence of dict, one a row
+        A row may lack columns that another has.
     origin : dict
         From `provenance`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_table(f"{folder}/sand.csv", {"state": [0, 1]}, {"seed": 3})
+    ...     print(Path(folder, "sand.csv").read_text(), end="")
+    # {"seed": 3}
+    state
+    0
+    1
     """
     if Path(path).suffix == ".parquet":
         import pyarrow as pa
         import pyarrow.parquet as pq
 
-        arrow = pa.table({name: _arrow(column) for name, column in _columns(table).items()})
-        metadata = {b"provenance": _json(origin).encode()}
-        with _replacing(path) as file:
+        arrow = pa.table({name: arrow_array(column) for name, column in _columns(table).items()})
+        metadata = {b"provenance": json_line(origin).encode()}
+        with replacing(path) as file:
             pq.write_table(arrow.replace_schema_metadata(metadata), file, compression="zstd")
     else:
         columns = _columns(table)
-        text = io.StringIO(f"# {_json(origin)}\n")
+        text = io.StringIO(f"# {json_line(origin)}\n")
         text.seek(0, io.SEEK_END)
         lines = csv.writer(text, lineterminator="\n")
         lines.writerow(columns)
-        lines.writerows(zip(*map(_cells, columns.values()), strict=True))
-        _write(path, text.getvalue().encode())
+        lines.writerows(zip(*map(cells, columns.values()), strict=True))
+        write_text(path, text.getvalue())
 
 
 def _columns(table):
+    """Return the columns of a table by name."""
     if isinstance(table, list | tuple):
         names = dict.fromkeys(name for row in table for name in row)
         return {name: [row.get(name) for row in table] for name in names}
     return dict(table.items())
 
 
-def _arrow(column):
-    """Return a column as Arrow's array, which is made of buffers: `pa.array` imports pandas."""
-    import pyarrow as pa
-
-    column = np.asarray(column)
-    if column.dtype.kind in "if":
-        kind, buffers = pa.from_numpy_dtype(column.dtype), [np.ascontiguousarray(column)]
-    elif column.dtype.kind == "U":
-        texts = [text.encode() for text in column.tolist()]
-        ends = np.cumsum([0, *map(len, texts)], dtype=np.int64)
-        kind, buffers = pa.large_string(), [ends, b"".join(texts)]
-    else:
-        return pa.array(column)
-    return pa.Array.from_buffers(kind, len(column), [None, *map(pa.py_buffer, buffers)])
-
-
-def _cells(column):
-    """Return a column as Python's own values, which print with all digits, None if not known."""
-    values = (value.item() if isinstance(value, np.generic) else value for value in column)
-    return [None if value != value else value for value in values]
-
-
-def read_table(path, columns=None):
+def read_table(path: str | PathLike[str], columns: Sequence[str] | None = None) -> Table:
     """Return a table that `write_table` wrote.
 
     Parameters
@@ -108,23 +148,81 @@ def read_table(path, columns=None):
     return pd.read_csv(path, comment="#", usecols=chosen)
 
 
-def write_json(path, result, origin):
-    """Write a fit or other small result as JSON; a number that is not finite becomes null."""
-    text = _json({**result, "provenance": origin}, indent=2)
-    _write(path, (text + "\n").encode())
+def stacked_tables(tables: Mapping[str, Table]) -> Table:
+    """Return the tables of all samples one below the other, with the sample of each row.
+
+    Parameters
+    ----------
+    tables : mapping
+        By name of the sample.
+
+    Returns
+    -------
+    DataFrame
+        The columns of each table and, as its last, sample. A table that lacks a column of another
+        is empty there.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> sand, powder = pd.DataFrame({"state": [0, 1]}), pd.DataFrame({"state": [0]})
+    >>> stacked_tables({"sand": sand, "powder": powder}).to_dict("list")
+    {'state': [0, 1, 0], 'sample': ['sand', 'sand', 'powder']}
+    """
+    import pandas as pd
+
+    named = [table.assign(sample=name) for name, table in tables.items()]
+    return pd.concat(named, ignore_index=True)
 
 
-def read_json(path):
-    """Return what `write_json` wrote."""
+def write_json(
+    path: str | PathLike[str], result: Mapping[str, Any], origin: Mapping[str, Any]
+) -> None:
+    """Write a fit or other small result as JSON; a number that is not finite becomes null.
+
+    Parameters
+    ----------
+    path : path-like
+    result : dict
+        Of plain values, NumPy's numbers and arrays; keys keep their order.
+    origin : dict
+        From `provenance`, the last key of the file.
+
+    Raises
+    ------
+    TypeError
+        When JSON has no such value.
+    """
+    write_text(path, json_page({**result, "provenance": origin}))
+
+
+def read_json(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return what `write_json` wrote, its provenance included; a number not known is None.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    dict
+    """
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
-def write_text(path, text):
-    """Write a page or other text as it is."""
-    _write(path, text.encode())
+def write_text(path: str | PathLike[str], text: str) -> None:
+    """Write a page or other text as it is, in UTF-8.
+
+    Parameters
+    ----------
+    path : path-like
+    text : str
+    """
+    with replacing(path) as file:
+        file.write(text.encode())
 
 
-def no_data(error):
+def no_data(error: Exception) -> tuple[dict[str, list[str]], dict[str, str]]:
     """Return an empty result as table and as JSON: each says only why.
 
     Parameters
@@ -145,10 +243,26 @@ def no_data(error):
     return {"reason": [str(error)]}, {"reason": str(error)}
 
 
-def write_packing(path, positions, radii, edge, origin):
+def write_packing(
+    path: str | PathLike[str],
+    positions: ArrayLike,
+    radii: ArrayLike,
+    edge: float,
+    origin: Mapping[str, Any],
+) -> None:
     """Write a packing as npz: positions (N, 3) about the centre, radii (N,), box (3,), meta.
 
-    All in metres; meta is JSON.
+    Parameters
+    ----------
+    path : path-like
+    positions : array_like, shape (N, 3)
+        Centres, origin at the centre of the cube [m].
+    radii : array_like, shape (N,)
+        [m]
+    edge : float
+        Of the cube [m].
+    origin : dict
+        From `provenance`; becomes meta, as JSON.
     """
     buffer = io.BytesIO()
     np.savez_compressed(
@@ -156,46 +270,27 @@ def write_packing(path, positions, radii, edge, origin):
         positions=positions,
         radii=radii,
         box=np.full(3, float(edge)),
-        meta=np.array(_json({**origin, "units": "m", "origin": "centre of the box"})),
+        meta=np.array(json_line({**origin, "units": "m", "origin": "centre of the box"})),
     )
-    _write(path, buffer.getvalue())
+    with replacing(path) as file:
+        file.write(buffer.getvalue())
 
 
-def read_packing(path):
-    """Return positions, radii and edge of a packing that `write_packing` wrote [m]."""
+def read_packing(path: str | PathLike[str]) -> tuple[np.ndarray, np.ndarray, float]:
+    """Return positions, radii and edge of a packing that `write_packing` wrote.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    positions : ndarray, shape (N, 3)
+        Centres, origin at the centre of the cube [m].
+    radii : ndarray, shape (N,)
+        [m]
+    edge : float
+        Of the cube [m].
+    """
     with np.load(path) as file:
         return file["positions"], file["radii"], float(file["box"][0])
-
-
-def _json(value, indent=None):
-    return json.dumps(_plain(value), indent=indent, sort_keys=indent is None, allow_nan=False)
-
-
-def _plain(value):
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [_plain(item) for item in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _write(path, content):
-    with _replacing(path) as file:
-        file.write(content)
-
-
-@contextlib.contextmanager
-def _replacing(path):
-    """Open a file that takes the place of another when it is complete."""
-    # Written beside and renamed, so that a killed job leaves no half file.
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with beside.open("wb") as file:
-            yield file
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)

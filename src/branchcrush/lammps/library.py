@@ -36,6 +36,10 @@ def load_lammps() -> type:
     It changes this process's environment: one OpenMP thread per rank unless `OMP_NUM_THREADS` says
     otherwise, `MPI4PY_MPIABI`, and no variables of a launcher that is not MPICH's.
 
+    Returns
+    -------
+    type
+
     Raises
     ------
     SimulationError

@@ -8,7 +8,10 @@ avoids that, but a grid with more cells than grains is slow to search. `benchmar
 measures the choice against others.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 # Of the mean diameter. The list of a grain then holds about twice its contacts.
 _SKIN = 0.3
@@ -20,7 +23,7 @@ _SIMILAR = 2.7
 _MORE_NEIGHBOURS = 2000
 
 
-def neighbour_settings(radii, edge):
+def neighbour_settings(radii: ArrayLike, edge: float) -> dict[str, Any]:
     """Return the variables of `in.compress` that say how neighbours are found.
 
     Parameters

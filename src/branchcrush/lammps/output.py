@@ -1,14 +1,18 @@
 """What a run of `lammps_inputs/in.compress` leaves, made into tables state by state."""
 
+from collections.abc import Mapping
 from functools import partial
-from typing import NamedTuple
+from os import PathLike
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from pyarrow import csv
 
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.files import read_dump
-from branchcrush.loading.states import path_row, state_contacts, wall_contacts
+from branchcrush.loading.path import path_row
+from branchcrush.loading.states import state_contacts, wall_contacts
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.packings.geometry import cube
 
@@ -18,18 +22,20 @@ DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 class Compression(NamedTuple):
     """What a compression leaves: a table for each kind of thing, as a dict of columns."""
 
-    path: dict  # a row for each state, as `loading.states.path_row`
+    path: dict  # a row for each state, as `loading.path.path_row`
     contacts: dict  # a row for each contact and state, as `loading.states.state_contacts`
     walls: dict  # the same with walls, as `loading.states.wall_contacts`
     steps: dict  # a row for each strain step
 
 
-def read_compression(folder, variables, stopped):
+def read_compression(
+    folder: str | PathLike[str], variables: Mapping[str, Any], stopped: str
+) -> Compression:
     """Return the loading path and the contacts of a run; one state's dump is held at a time.
 
     Parameters
     ----------
-    folder : pathlib.Path
+    folder : path-like
         Holds states.csv, steps.csv and the `DUMPS`.
     variables : dict
         Those of the run, as `lammps.compression.compression_variables`.
@@ -45,6 +51,7 @@ def read_compression(folder, variables, stopped):
     SimulationError
         When a contact is listed twice, or a dump does not hold a frame for each state.
     """
+    folder = Path(folder)
     scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
     lines = [dict(zip(scalars, line, strict=True)) for line in zip(*scalars.values(), strict=True)]
     frames = [read_dump(folder / name) for name in DUMPS]
@@ -72,6 +79,7 @@ def read_compression(folder, variables, stopped):
 
 
 def _columns(path):
+    """Return the columns of a file that LAMMPS printed, line by line."""
     # Arrow's own `to_numpy` would import pandas, which takes half a second.
     options = csv.ReadOptions(use_threads=False), None, csv.ConvertOptions(null_values=[])
     columns = csv.read_csv(path, *options).to_pydict()
@@ -96,6 +104,7 @@ def _state(line, particles, pairs, *, variables, first_edge):
 
 
 def _leg(state, variables):
+    """Return whether a state is on the way to the furthest target, or on the way back."""
     # Targets that go back unload. Two states come before the first target.
     targets = np.asarray(variables["targets"]) * (-1 if variables["control"] == "edge" else 1)
     return "loading" if state - 2 <= int(np.argmax(targets)) else "unloading"

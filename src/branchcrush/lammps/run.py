@@ -11,14 +11,17 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.library import load_lammps
 
 
-def declared_variables(script):
-    """Return the variables a LAMMPS script declares with style index, and their defaults.
+def declared_variables(script: str | PathLike[str]) -> dict[str, str]:
+    r"""Return the variables a LAMMPS script declares with style index, and their defaults.
 
     Parameters
     ----------
@@ -27,19 +30,33 @@ def declared_variables(script):
     Returns
     -------
     dict of str
+        By name; a default of several words is one text.
+
+    Examples
+    --------
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     script = Path(folder, "in.example")
+    ...     _ = script.write_text("variable edge index 1.5\nvariable half equal v_edge/2\n")
+    ...     declared_variables(script)
+    {'edge': '1.5'}
     """
     text = Path(script).read_text(encoding="utf-8")
     return dict(re.findall(r"^variable\s+(\w+)\s+index\s+(.+)$", text, re.MULTILINE))
 
 
-def run_script(script, variables, log, ranks=1):
+def run_script(
+    script: str | PathLike[str],
+    variables: Mapping[str, Any],
+    log: str | PathLike[str],
+    ranks: int = 1,
+) -> str:
     """Run a script to its end, and return why it stopped before, if it did.
 
     The seconds inside LAMMPS are the last line of the log.
 
     Parameters
     ----------
-    script : pathlib.Path
+    script : path-like
         It tells by its variables `failed`, `failure` and `edge` whether it stopped.
     variables : dict
         A value may be a list.
@@ -51,12 +68,14 @@ def run_script(script, variables, log, ranks=1):
     Returns
     -------
     str
+        Why, and at which edge; empty for a run that came to its end.
 
     Raises
     ------
     SimulationError
         When LAMMPS itself stops, or the script does not declare a variable.
     """
+    script = Path(script)
     # LAMMPS ignores a misspelt -var silently.
     unknown = set(variables) - set(declared_variables(script))
     if unknown:
@@ -120,7 +139,9 @@ def _run_on_ranks(script, arguments, ranks, folder, log):
     # mpi4py ends all ranks when one of them fails.
     command = [launcher, "-n", str(ranks), sys.executable, "-m", "mpi4py", "-m", __name__, folder]
     # All ranks are this job's, on this machine, also inside a Slurm allocation.
-    environment = {name: v for name, v in os.environ.items() if not name.startswith("SLURM_")}
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith("SLURM_")
+    }
     _end_with_parent()
     process = subprocess.Popen(
         [str(word) for word in command],
@@ -152,12 +173,14 @@ def _run_on_ranks(script, arguments, ranks, folder, log):
 
 
 def _launcher():
+    """Return the mpiexec to use, or None."""
     # That which belongs to the MPI of this interpreter's LAMMPS lies beside it.
     beside = Path(sys.executable).with_name("mpiexec")
     return str(beside) if beside.exists() else shutil.which("mpiexec")
 
 
 def _words(value):
+    """Return the words of a variable as LAMMPS reads them."""
     # repr keeps all digits, but that of a NumPy number is not one LAMMPS reads.
     values = value if isinstance(value, list) else [value]
     return [repr(float(item)) if isinstance(item, float) else str(item) for item in values]
@@ -181,8 +204,19 @@ def _interruptible():
         signal.signal(signal.SIGINT, before)
 
 
-def main(folder):
-    """Run the job of a folder on this rank, of all that were started for it."""
+def main(folder: str | PathLike[str]) -> None:
+    """Run the job of a folder on this rank, of all that were started for it.
+
+    Parameters
+    ----------
+    folder : path-like
+        Holds job.json; result.json is left in it.
+
+    Raises
+    ------
+    SimulationError
+        When LAMMPS itself stops on this rank.
+    """
     folder = Path(folder)
     script, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
     result = _run(Path(script), arguments, ranks)

@@ -1,5 +1,6 @@
 """What a configuration asks of grains, files and folders; no input whatever gets past it."""
 
+import os
 from copy import deepcopy
 
 import numpy as np
@@ -53,6 +54,17 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.fixture
+def locked(monkeypatch, folder):
+    """Return a function that takes all permissions from a path, also for who is allowed all."""
+
+    def lock(name):
+        asked = folder / name
+        monkeypatch.setattr(os, "access", lambda path, _: (folder / path).resolve() != asked)
+
+    return lock
+
+
 def lines_of(raw):
     with pytest.raises(ConfigError) as refused:
         checked_study(raw)
@@ -98,6 +110,14 @@ def test_a_stress_that_would_crush_the_grains_into_each_other_is_refused(folder)
     (line,) = lines_of(study_of(loading={"mean_stress": [1e3, 1e12]}))
     assert line.startswith("config: samples.mine.loading.mean_stress = 1e+12 Pa: would press")
     assert line.endswith("ask for less, or raise the stiffness of contact")
+
+
+def test_grains_may_be_pressed_together_by_half_the_median_radius_by_mass(folder):
+    # R^4 is in the middle of 0.5^4 and 1: R = 0.854 mm. Of linear contacts, an overlap of R/2 takes
+    # a stress of 0.5 * 0.64 * 6 k / (4 pi R) = 179 MPa.
+    checked_study(study_of(loading={"mean_stress": [1e5, 1.78e8]}))
+    (line,) = lines_of(study_of(loading={"mean_stress": [1e5, 1.80e8]}))
+    assert "median radius by mass, 0.000854 m, together by about 50% of it" in line
 
 
 def test_grains_are_checked_though_another_key_is_wrong(folder):
@@ -163,6 +183,24 @@ def test_a_missing_file_is_named_besides_another_mistake(folder):
     assert [line.split(" = ")[0][-12:] for line in lines] == ["grading.unit", "grading.file"]
 
 
+def test_missing_files_of_a_mixture_are_named_besides_another_mistake(folder):
+    parts = [{**SIEVE, "file": "no.csv"}, {**UNIFORM, "unit": "cm"}]
+    components = [{"weight": 1, "grading": part} for part in parts]
+    wrong, missing = lines_of(
+        study_of(grading={"form": "mixture", "basis": "mass", "components": components})
+    )
+    assert wrong.startswith("config: samples.mine.grading.components.1.grading.unit = 'cm'")
+    assert missing.startswith("config: samples.mine.grading.components.0.grading.file = 'no.csv'")
+
+
+def test_a_file_that_may_not_be_read_is_named(folder, locked):
+    (folder / "sand.csv").write_text("1,0\n2,60\n8,100\n")
+    locked("sand.csv")
+    (line,) = lines_of(study_of(grading=SIEVE))
+    expected = "grading.file = 'sand.csv': cannot be read: change its permissions"
+    assert line == f"config: samples.mine.{expected}"
+
+
 # --- folders -------------------------------------------------------------------------------------
 
 
@@ -174,6 +212,19 @@ def test_a_file_in_the_way_of_results_is_named(folder, place):
     (folder / place).touch()
     expected = f"config: {place} is a file, and results need a folder there: move it"
     assert lines_of(study_of()) == [expected]
+
+
+@pytest.mark.parametrize("place", ["results", "logs/mine", "results/mine-refined"])
+def test_a_folder_of_results_that_may_not_be_written_is_named(folder, locked, place):
+    (folder / place).mkdir(parents=True)
+    locked(place)
+    assert lines_of(study_of()) == [f"config: {place} cannot be written to: change its permissions"]
+
+
+def test_a_study_in_a_folder_that_may_not_be_written_is_refused(folder, locked):
+    locked(".")
+    (line,) = lines_of(study_of())
+    assert line == f"config: the folder {folder} cannot be written to: run in one of your own"
 
 
 def test_a_name_that_leads_elsewhere_is_only_refused(folder):

@@ -7,7 +7,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.fields import Section
-from branchcrush.config.gradings import GradingSection
+from branchcrush.config.gradings import GradingSection, grading_data_files
 from branchcrush.config.messages import problem
 
 SIZES = {"size": "diameter", "unit": "mm"}
@@ -179,3 +179,15 @@ def test_mixture_needs_two_parts_with_weights_and_holds_no_other():
         (detail,) = refused.value.errors()
         assert detail["loc"][:4] == ("grading", "mixture", "components", 1)
         assert detail["loc"][-1] == place
+
+
+# --- files ---------------------------------------------------------------------------------------
+
+
+def test_data_files_are_those_of_all_parts():
+    sieve, radii = {"form": "sieve", "file": "a.csv"}, {"form": "radii", "file": "b/c.txt"}
+    assert grading_data_files(sieve) == ["a.csv"]
+    assert grading_data_files(VALID["uniform"]) == []
+    parts = [{"weight": 1.0, "grading": part} for part in (sieve, VALID["uniform"], radii)]
+    mixture = {"form": "mixture", "basis": "mass", "components": parts}
+    assert grading_data_files(mixture) == ["a.csv", "b/c.txt"]

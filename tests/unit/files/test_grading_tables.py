@@ -1,11 +1,8 @@
 """Files of gradings: what people and machines write is read, and what is wrong in them is named."""
 
-import numpy as np
 import pytest
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_array_equal
 
-from branchcrush.config.build import grading_of
-from branchcrush.config.gradings import grading_data_files
 from branchcrush.errors import GradingError
 from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
 
@@ -231,114 +228,3 @@ def test_wrong_density_table_is_refused(written, content, expected):
 def test_wrong_radii_are_refused(written, content, expected):
     (message,) = problems_of(read_radii, written(content))
     assert message.startswith(expected)
-
-
-# --- the grading of a section --------------------------------------------------------------------
-
-MM = {"size": "radius", "unit": "mm"}
-ENDS = {**MM, "min": 1.0, "max": 4.0}
-SECTIONS = [
-    {"form": "uniform", "basis": "mass", **ENDS},
-    {"form": "loguniform", "basis": "number", **ENDS},
-    {"form": "normal", "basis": "mass", "mean": 2.0, "standard_deviation": 0.5, **ENDS},
-    {
-        "form": "lognormal",
-        "basis": "number",
-        "median": 2.0,
-        "geometric_standard_deviation": 1.5,
-        **ENDS,
-    },
-    {"form": "weibull", "basis": "mass", "scale": 2.0, "shape": 1.5, **ENDS},
-    {"form": "fractal", "basis": "number", "alpha": 2.6, **ENDS},
-    {"form": "fuller", "basis": "mass", "exponent": 0.5, **ENDS},
-    {"form": "single", "value": 2.0, **MM},
-]
-SIZES = {"min", "max", "mean", "standard_deviation", "median", "scale", "value"}
-any_section = pytest.mark.parametrize("section", SECTIONS, ids=[s["form"] for s in SECTIONS])
-
-
-@any_section
-@pytest.mark.parametrize(("unit", "factor"), [("m", 1e-3), ("um", 1e3)])
-@pytest.mark.parametrize(("size", "times"), [("radius", 1.0), ("diameter", 2.0)])
-def test_unit_and_size_say_how_to_read_the_numbers(section, unit, factor, size, times):
-    same = {
-        key: value * factor * times if key in SIZES else value for key, value in section.items()
-    }
-    grading, other = grading_of(section), grading_of({**same, "unit": unit, "size": size})
-    radius = np.linspace(1e-3, 4e-3, 12)
-    assert_allclose(other.support(), grading.support(), rtol=1e-14)
-    assert_allclose(other.mass_cdf(radius + 1e-9), grading.mass_cdf(radius + 1e-9), atol=1e-12)
-    assert_allclose(other.moment(3), grading.moment(3), rtol=1e-12)
-
-
-def test_basis_is_taken_from_the_section():
-    sections = [{**SECTIONS[0], "basis": basis} for basis in ("number", "mass")]
-    by_number, by_mass = (grading_of(section) for section in sections)
-    assert_allclose([by_number.number_cdf(2.5e-3), by_mass.mass_cdf(2.5e-3)], 0.5, rtol=1e-12)
-
-
-def test_sieve_file_gives_diameters(written):
-    section = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm"}
-    grading = grading_of({**section, "file": str(written(PLAIN)), "min": None, "max": None})
-    assert_allclose(grading.mass_cdf(np.array(OPENING) / 2000), np.array(PERCENT) / 100, atol=1e-12)
-    cut = grading_of({**section, "file": str(written(PLAIN)), "min": 0.5, "max": 2.0})
-    assert_allclose(cut.support(), (0.25e-3, 1e-3), rtol=1e-14)
-
-
-def test_density_file_is_by_its_basis(written):
-    path = str(written("1,1\n3,1\n"))
-    for basis in ("number", "mass"):
-        section = {"form": "density", "basis": basis, "file": path, **MM}
-        found = getattr(grading_of(section), f"{basis}_cdf")(1.5e-3)
-        assert_allclose(found, 0.25, rtol=1e-12)
-
-
-def test_radii_file_gives_its_grains(written):
-    path = str(written("2\n4\n4\n"))
-    section = {"form": "radii", "basis": "number", "file": path, "size": "diameter", "unit": "um"}
-    radii, share = grading_of(section).discrete_part
-    assert_allclose(radii, [1e-6, 2e-6], rtol=1e-14)
-    assert_allclose(share, [1 / 3, 2 / 3], rtol=1e-14)
-
-
-def test_mixture_is_made_of_sections(written):
-    sizes = [{"form": "single", "value": value, **MM} for value in (1.0, 2.0)]
-    components = [{"weight": w, "grading": g} for w, g in zip((3.0, 1.0), sizes, strict=True)]
-    grading = grading_of({"form": "mixture", "basis": "mass", "components": components})
-    assert_allclose(grading.mass_cdf(1.5e-3), 0.75, rtol=1e-14)
-    assert_allclose(grading.number_cdf(1.5e-3), 24 / 25, rtol=1e-14)
-
-
-def test_files_are_relative_to_the_working_directory(written, monkeypatch):
-    path = written(PLAIN)
-    monkeypatch.chdir(path.parent)
-    section = {
-        "form": "sieve",
-        "basis": "mass",
-        "size": "diameter",
-        "unit": "m",
-        "file": "sand.csv",
-    }
-    assert grading_of(section).support() == (0.0315, 4.0)
-
-
-def test_message_of_a_wrong_file_names_it(written):
-    path = str(written("1,0\n2,0\n4,100\n"))
-    section = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm", "file": path}
-    with pytest.raises(GradingError, match=r"sand\.csv: no grains are left"):
-        grading_of({**section, "max": 1.5})
-
-
-@pytest.mark.parametrize("section", [ENDS, {**MM, "file": "sand.csv"}])
-def test_unknown_form_is_refused(section):
-    with pytest.raises(GradingError, match="'sphere'"):
-        grading_of({**section, "form": "sphere", "basis": "mass"})
-
-
-def test_data_files_are_those_of_all_parts():
-    sieve, radii = {"form": "sieve", "file": "a.csv"}, {"form": "radii", "file": "b/c.txt"}
-    assert grading_data_files(sieve) == ["a.csv"]
-    assert grading_data_files(SECTIONS[0]) == []
-    parts = [{"weight": 1.0, "grading": part} for part in (sieve, SECTIONS[0], radii)]
-    mixture = {"form": "mixture", "basis": "mass", "components": parts}
-    assert grading_data_files(mixture) == ["a.csv", "b/c.txt"]

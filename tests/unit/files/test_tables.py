@@ -1,15 +1,11 @@
 """Files in and out: what was written is read again, to the last digit and byte."""
 
 import json
-import resource
 import subprocess
 import sys
-import time
-import zipfile
 
 import numpy as np
 import pandas as pd
-import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,9 +20,12 @@ from branchcrush.files.tables import (
     read_json,
     read_packing,
     read_table,
+    stacked_tables,
+    study_provenance,
     write_json,
     write_packing,
     write_table,
+    write_text,
 )
 
 ORIGIN = provenance(sample="paper", seed=3, config={"grains": 1000, "seeds": [1, 2]})
@@ -40,14 +39,6 @@ TABLE = {
 }
 POSITIONS, RADII = np.random.default_rng(0).uniform(-1, 1, (2, 3)), np.array([1 / 3, 1e-5])
 
-WRITERS = {
-    "table.csv": lambda path: write_table(path, TABLE, ORIGIN),
-    "table.parquet": lambda path: write_table(path, TABLE, ORIGIN),
-    "fit.json": lambda path: write_json(path, {"exponent": 3.0}, ORIGIN),
-    "packing.npz": lambda path: write_packing(path, POSITIONS, RADII, 2.5, ORIGIN),
-}
-every_file = pytest.mark.parametrize("name", WRITERS)
-
 
 # --- round trips ---------------------------------------------------------------------------------
 
@@ -55,15 +46,15 @@ every_file = pytest.mark.parametrize("name", WRITERS)
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
 def test_table_is_read_as_it_was_written(tmp_path, name):
     write_table(tmp_path / name, TABLE, ORIGIN)
-    found = read_table(tmp_path / name)
-    assert_frame_equal(found, pd.DataFrame(TABLE), check_exact=True)
+    result = read_table(tmp_path / name)
+    assert_frame_equal(result, pd.DataFrame(TABLE), check_exact=True)
 
 
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
 def test_columns_are_read_alone_when_they_are_named(tmp_path, name):
     write_table(tmp_path / name, TABLE, ORIGIN)
-    found = read_table(tmp_path / name, ("state", "wall"))
-    assert_frame_equal(found, pd.DataFrame(TABLE)[["state", "wall"]], check_exact=True)
+    result = read_table(tmp_path / name, ("state", "wall"))
+    assert_frame_equal(result, pd.DataFrame(TABLE)[["state", "wall"]], check_exact=True)
 
 
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
@@ -75,9 +66,9 @@ def test_number_that_is_not_known_stays_so(tmp_path, name):
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
 def test_table_without_rows_keeps_its_columns(tmp_path, name):
     write_table(tmp_path / name, {"i": [], "overlap_m": []}, ORIGIN)
-    found = read_table(tmp_path / name)
-    assert list(found.columns) == ["i", "overlap_m"]
-    assert len(found) == 0
+    result = read_table(tmp_path / name)
+    assert list(result.columns) == ["i", "overlap_m"]
+    assert len(result) == 0
 
 
 def test_table_may_be_a_list_of_rows_that_lack_some_columns(tmp_path):
@@ -135,9 +126,9 @@ def test_json_holds_arrays_and_numpy_numbers_as_plain_values(tmp_path):
         "text": "κ*",
     }
     write_json(tmp_path / "fit.json", result, ORIGIN)
-    found = read_json(tmp_path / "fit.json")
-    del found["provenance"]
-    assert found == {
+    result = read_json(tmp_path / "fit.json")
+    del result["provenance"]
+    assert result == {
         "exponent": 1 / 3,
         "seeds": 16,
         "loaded": True,
@@ -151,8 +142,8 @@ def test_json_has_null_where_a_number_is_not_finite(tmp_path):
     result = {"low": np.nan, "high": float("inf"), "each": np.array([1.0, -np.inf])}
     write_json(tmp_path / "fit.json", result, ORIGIN)
     assert "NaN" not in (tmp_path / "fit.json").read_text()
-    found = read_json(tmp_path / "fit.json")
-    assert (found["low"], found["high"], found["each"]) == (None, None, [1.0, None])
+    result = read_json(tmp_path / "fit.json")
+    assert (result["low"], result["high"], result["each"]) == (None, None, [1.0, None])
 
 
 def test_json_keeps_the_order_of_its_keys(tmp_path):
@@ -190,22 +181,55 @@ def test_provenance_names_the_version_and_what_it_is_told():
     }
 
 
-@every_file
-def test_every_file_says_where_it_came_from(tmp_path, name):
-    path = tmp_path / name
-    WRITERS[name](path)
-    if name.endswith("csv"):
-        first = path.read_text().splitlines()[0]
-        assert first.startswith("# ")
-        found = json.loads(first.removeprefix("# "))
-    elif name.endswith("parquet"):
-        found = json.loads(pq.read_schema(path).metadata[b"provenance"])
-    elif name.endswith("json"):
-        found = read_json(path)["provenance"]
-    else:
-        with np.load(path) as file:
-            found = json.loads(str(file["meta"]))
-    assert {key: found[key] for key in ORIGIN} == ORIGIN
+SAMPLES = {
+    "sand": {"grains": 1000, "seeds": [7, 3], "contact": {"law": "hertz", "young_modulus": 7e10}},
+    "powder": {"grains": 50, "seeds": [1], "contact": {"law": "linear", "normal_stiffness": 1e6}},
+}
+
+
+def test_first_line_of_a_study_holds_the_settings_and_seeds_of_every_sample(tmp_path):
+    path = tmp_path / "comparison.csv"
+    write_table(path, [{"sample": name} for name in SAMPLES], study_provenance(SAMPLES, bins=20))
+    first, *lines = path.read_text().splitlines()
+    assert json.loads(first.removeprefix("# ")) == {
+        "branchcrush": __version__,
+        "samples": SAMPLES,
+        "bins": 20,
+    }
+    assert lines == ["sample", "sand", "powder"]
+    assert read_table(path)["sample"].tolist() == ["sand", "powder"]
+
+
+# --- all samples ---------------------------------------------------------------------------------
+
+
+def test_tables_are_stacked_in_the_order_of_their_samples():
+    sand = pd.DataFrame({"state": [4, 5], "leg": ["loading", "unloading"]}, index=[7, 9])
+    powder = pd.DataFrame({"state": [1], "leg": ["loading"]})
+    expected = pd.DataFrame(
+        {
+            "state": [1, 4, 5],
+            "leg": ["loading", "loading", "unloading"],
+            "sample": ["powder", "sand", "sand"],
+        }
+    )
+    assert_frame_equal(stacked_tables({"powder": powder, "sand": sand}), expected)
+    # What is stacked stays as it was.
+    assert list(sand) == ["state", "leg"]
+
+
+def test_table_without_data_keeps_its_reason_when_it_is_stacked():
+    reason, sand = pd.DataFrame({"reason": ["no load"]}), pd.DataFrame({"state": [4]})
+    stacked = stacked_tables({"sand": sand, "powder": reason})
+    assert list(stacked) == ["state", "sample", "reason"]
+    assert stacked["sample"].tolist() == ["sand", "powder"]
+    assert stacked["state"].tolist()[0] == 4 and np.isnan(stacked["state"].tolist()[1])
+    assert stacked["reason"].tolist()[1] == "no load"
+
+
+def test_text_is_written_in_utf_8(tmp_path):
+    write_text(tmp_path / "below" / "page.html", "κ* of 2 µm\n")
+    assert (tmp_path / "below" / "page.html").read_bytes() == "κ* of 2 µm\n".encode()
 
 
 # --- no data -------------------------------------------------------------------------------------
@@ -218,83 +242,3 @@ def test_result_without_data_is_read_as_its_reason_alone(tmp_path):
     reason = "no packing carries load, in none of 2 seeds"
     assert read_table(tmp_path / "table.csv").to_dict("records") == [{"reason": reason}]
     assert read_json(tmp_path / "fit.json") == {"reason": reason, "provenance": ORIGIN}
-
-
-# --- bytes ---------------------------------------------------------------------------------------
-
-
-@every_file
-def test_same_content_gives_the_same_bytes_at_any_time(tmp_path, name, monkeypatch):
-    WRITERS[name](tmp_path / name)
-    first = (tmp_path / name).read_bytes()
-    later = time.time() + 1e7
-    monkeypatch.setattr(time, "time", lambda: later)
-    WRITERS[name](tmp_path / "elsewhere" / name)
-    assert (tmp_path / "elsewhere" / name).read_bytes() == first
-
-
-def test_packing_file_carries_no_date(tmp_path):
-    WRITERS["packing.npz"](tmp_path / "packing.npz")
-    with zipfile.ZipFile(tmp_path / "packing.npz") as file:
-        assert {entry.date_time for entry in file.infolist()} == {(1980, 1, 1, 0, 0, 0)}
-
-
-@every_file
-def test_different_origin_gives_different_bytes(tmp_path, name):
-    WRITERS[name](tmp_path / name)
-    first = (tmp_path / name).read_bytes()
-    other = {**ORIGIN, "seed": 4}
-    if name.startswith("table"):
-        write_table(tmp_path / name, TABLE, other)
-    elif name == "fit.json":
-        write_json(tmp_path / name, {"exponent": 3.0}, other)
-    else:
-        write_packing(tmp_path / name, POSITIONS, RADII, 2.5, other)
-    assert (tmp_path / name).read_bytes() != first
-
-
-# --- half files ----------------------------------------------------------------------------------
-
-
-@every_file
-def test_nothing_but_the_file_itself_is_left(tmp_path, name):
-    WRITERS[name](tmp_path / "deep" / "folder" / name)
-    WRITERS[name](tmp_path / "deep" / "folder" / name)
-    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == [name]
-
-
-@every_file
-def test_file_is_replaced_as_a_whole(tmp_path, name):
-    path = tmp_path / name
-    path.write_bytes(b"the old content")
-    with path.open("rb") as reader:
-        WRITERS[name](path)
-        # Who opened the old file reads it to its end; only a new opening finds the new one.
-        assert reader.read() == b"the old content"
-    assert path.read_bytes() != b"the old content"
-
-
-@every_file
-def test_full_disk_leaves_the_old_file_and_nothing_else(tmp_path, name):
-    path = tmp_path / name
-    path.write_bytes(b"the old content")
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    # Every file ends after 20 bytes, as on a disk that is full.
-    resource.setrlimit(resource.RLIMIT_FSIZE, (20, limits[1]))
-    try:
-        with pytest.raises(OSError, match="large"):
-            WRITERS[name](path)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    assert path.read_bytes() == b"the old content"
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_result_that_cannot_be_written_leaves_the_old_file(tmp_path):
-    path = tmp_path / "fit.json"
-    write_json(path, {"exponent": 3.0}, ORIGIN)
-    before = path.read_bytes()
-    with pytest.raises(TypeError):
-        write_json(path, {"exponent": object()}, ORIGIN)
-    assert path.read_bytes() == before
-    assert list(tmp_path.iterdir()) == [path]

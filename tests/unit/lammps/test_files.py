@@ -169,10 +169,10 @@ def test_frame_without_contacts_keeps_its_columns(tmp_path, compressed):
 def test_frames_follow_one_without_rows_wherever_it_is(tmp_path, empty):
     parts = [frame_text(["id1", "force"], [[k, k / 3]] * k, "BONDS") for k in (1, 2)]
     parts.insert(empty, frame_text(["id1", "force"], [], "BONDS"))
-    found = [frame.to_numpy().tolist() for frame in frames_of(dump(tmp_path, "".join(parts), True))]
+    read = [frame.to_numpy().tolist() for frame in frames_of(dump(tmp_path, "".join(parts), True))]
     expected = [[[1, 1 / 3]], [[2, 2 / 3]] * 2]
     expected.insert(empty, [])
-    assert found == expected
+    assert read == expected
 
 
 def test_path_may_be_text(tmp_path):
@@ -191,9 +191,9 @@ def test_dump_without_frames_has_none(tmp_path):
 def test_numbers_are_those_that_python_reads(tmp_path_factory, frames, label):
     text = "".join(frame_text(["x", "fx", "id"], rows, label) for rows in frames)
     path = dump(tmp_path_factory.mktemp("dump"), text, compressed=True)
-    found = list(frames_of(path))
-    assert len(found) == len(frames)
-    for frame, rows in zip(found, frames, strict=True):
+    read = list(frames_of(path))
+    assert len(read) == len(frames)
+    for frame, rows in zip(read, frames, strict=True):
         printed = [float(f"{value:.17g}") for row in rows for value in row]
         expected, values = np.reshape(printed, (-1, 3)), frame.to_numpy()
         assert_array_equal(values, expected)

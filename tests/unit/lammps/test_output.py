@@ -215,11 +215,10 @@ def test_a_run_is_read_and_written_without_pandas(folder):
     program = f"""
 import sys
 from pathlib import Path
-from branchcrush.files import grading_tables as grading_files
-from branchcrush.gradings import sampling
-from branchcrush.lammps import compression as simulation
-from branchcrush.lammps.output import read_compression
+import branchcrush.config.build
+import branchcrush.lammps.compression
 from branchcrush.files.tables import write_table
+from branchcrush.lammps.output import read_compression
 
 for name, table in read_compression(Path("."), {VARIABLES}, "")._asdict().items():
     kind = "parquet" if name in ("contacts", "walls") else "csv"

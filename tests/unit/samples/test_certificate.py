@@ -6,8 +6,13 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
-from branchcrush.packings.contact_laws import OVERLAP_FLAG
-from branchcrush.samples.certificate import LIMITS, jamming_points, state_certificates
+from branchcrush.packings.contact_laws import OVERLAP_FLAG, LinearContact
+from branchcrush.samples.certificate import (
+    LIMITS,
+    certificate_tables,
+    jamming_points,
+    state_certificates,
+)
 from tests.unit.samples.sound_paths import STRESS, WORK, path_of
 
 
@@ -98,6 +103,36 @@ def test_deep_overlaps_flag_a_state_and_leave_its_certificate():
     assert at_limit["verdict"] == "certified"
     assert (beyond["verdict"], beyond["certified"]) == ("flagged", True)
     assert beyond["reasons"] == "overlap at 95 % of the contacts is 5% of the radius"
+
+
+def test_limits_are_those_that_the_documents_name():
+    # docs/model.md, "Certificate".
+    assert LIMITS == {
+        "unbalanced_force_ratio": 1e-6,
+        "inertial_number": 1e-4,
+        "stress_identity_error": 1e-6,
+        "contact_law_error": 1e-9,
+        "energy_excess": 1e-4,
+        "escaped": 0,
+        "lost": 0,
+    }
+
+
+def test_certificate_and_jamming_of_a_sample_come_with_the_floor_of_its_grains():
+    # The floor of equal grains: F_0 = k 1e-4 R, over pi R^2.
+    law, radius = LinearContact(1e6), 1e-3
+    floor = 1e6 * 1e-4 * radius / (np.pi * radius**2)
+    steps = steps_of(WAY_IN, 0.641)
+    steps["mean_stress_Pa"] += 0.999 * floor
+    path = path_of(solid_fraction=[0.6, 0.64, 0.68])
+    radii = [np.full(10, radius)]
+    states, points = certificate_tables(law, [3], [path], [steps], radii)
+    assert states["seed"].tolist() == [3, 3, 3]
+    assert states["verdict"].tolist() == ["no load", "certified", "certified"]
+    assert points["steps_loading"].tolist() == [8]
+    steps["mean_stress_Pa"] += 0.002 * floor
+    _, points = certificate_tables(law, [3], [path], [steps], radii)
+    assert points["loaded_from_the_start"].tolist() == [True]
 
 
 # --- jamming -------------------------------------------------------------------------------------

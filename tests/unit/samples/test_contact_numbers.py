@@ -19,6 +19,7 @@ from tests.unit.samples.drawn_contacts import (
     MEASURED,
     NO_WALLS,
     STATES,
+    contact_table,
     growing_sample,
     packing,
     path_of,
@@ -155,3 +156,45 @@ def test_equal_spheres_have_one_class_one_length_and_no_likeness():
     assert numbers["grains"].tolist() == [400]
     summary = contact_number_summary(kept, models, rows.to_dict("records"), path, **MEASURED)
     assert np.isnan(summary["end"]["assortativity_of_radii"])
+
+
+# --- coordination --------------------------------------------------------------------------------
+
+
+def test_distance_to_jamming_is_that_to_the_packings_own_point():
+    columns = ("void_ratio", "coordination_number", "mechanical_coordination_number")
+    columns += ("rattler_fraction",)
+    paths = [
+        path_of().assign(solid_fraction=[0.65, 0.70], **dict.fromkeys(columns, float(seed)))
+        for seed in range(2)
+    ]
+    _, kept, _ = sample(GRADING, {2: np.ones_like, 5: np.ones_like}, seeds=2, grains=100)
+    kept = [seed._replace(isostatic=np.array([6.0, 5.5])) for seed in kept]
+    table = coordination_table(kept, paths, [0.64, 0.60])
+    assert table["seed_number"].tolist() == [0, 0, 1, 1]
+    assert table["state"].tolist() == [2, 5, 2, 5]
+    assert_allclose(table["solid_fraction_above_jamming"], [0.01, 0.06, 0.05, 0.10], rtol=1e-9)
+    assert table["isostatic_number"].tolist() == [6.0, 5.5, 6.0, 5.5]
+    for name in columns:
+        assert table[name].tolist() == [0.0, 0.0, 1.0, 1.0]
+
+
+def test_numbers_of_a_tetrahedron_and_a_rattler_are_counted_by_hand():
+    # Four grains that all touch each other and a fifth that touches one of them: no grain has
+    # four contacts left when it is gone, so all are rattlers.
+    radii = np.array([1.0, 1.0, 1.0, 1.0, 2.0])
+    i, j = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3], [0, 4]]).T
+    grading = from_radii([1.0, 1.0, 1.0, 1.0, 2.0])
+    kept = [seed_contacts(grading, [1.0, 1.5, 2.0], radii, contact_table(7, i, j), NO_WALLS, [7])]
+    numbers, pairs = contact_number_rows(kept, {}, [1.0, 1.5, 2.0], path_of([7]), **MEASURED)
+    assert numbers["contact_number"].tolist() == [13 / 4, 1.0]
+    assert numbers["rattler_fraction"].tolist() == [1.0, 1.0]
+    assert pairs["contacts"].tolist() == [12, 1, 1, 0]
+    edges = fine_edges(1.0, 2.0)
+    rows = length_prediction_rows(
+        kept, predictions(grading, edges), edges, path_of([7]), **MEASURED
+    )
+    end = contact_number_summary(kept, {}, rows, path_of([7]), **MEASURED)["end"]
+    assert (end["coordination_number"], end["rattler_fraction"]) == (14 / 5, 1.0)
+    # Six branches of length 2 and one of 3.
+    assert end["mean_length_m"] == pytest.approx(15 / 7, rel=1e-3)

@@ -7,8 +7,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.energy.designs import log_length
 from branchcrush.errors import FitError
+from branchcrush.gradings.forms import uniform
 from branchcrush.samples.energy_split import (
     end_state,
+    energy_split_results,
     exponents_along_path,
     final_energy_split,
 )
@@ -167,6 +169,18 @@ def test_one_seed_gives_a_fit_without_an_interval():
     assert np.isnan([fit["exponent_low"], fit["exponent_high"]]).all()
 
 
+def test_what_is_told_near_jamming_is_of_the_first_state(sample):
+    _, fit = split_of(*sample)
+    near = fit["near_jamming"]
+    assert near["state"] == 1
+    # 0.71, 0.711 and 0.712.
+    assert near["solid_fraction"] == pytest.approx(0.711, rel=1e-12)
+    assert near["predictors"][0]["exponent"] == pytest.approx(2.0, abs=1e-9)
+    assert near["curvature"]["slope_at_mean"] == pytest.approx(2.0, abs=1e-7)
+    assert near["curvature"]["curvature"] == pytest.approx(0.0, abs=1e-7)
+    assert fit["curvature"]["slope_at_mean"] == pytest.approx(3.0, abs=1e-7)
+
+
 def test_one_state_is_the_end_and_not_near_jamming(contacts):
     _, fit = split_of(branches_of(contacts, 2), [path_of(2)] * 3)
     assert "near_jamming" not in fit
@@ -226,3 +240,57 @@ def test_last_row_along_the_path_is_the_fit_of_its_end():
     along = exponents_of(branches, paths)
     names = ["exponent", "exponent_low", "exponent_high", "branches", "median_overlap_over_length"]
     assert along.iloc[-1][names].tolist() == [fit[name] for name in names]
+
+
+# --- the rule ------------------------------------------------------------------------------------
+
+GRADING = uniform(5e-6, 1e-3)
+RULE = {"bins": 20, **OPTIONS}
+
+
+def rule_on(contacts, *, last_certified=True):
+    """Return what the rule makes of three seeds of which the second is not certified."""
+    paths = [
+        path_of(0, 1, 2).assign(leg="loading", carries_load=[False, True, True]) for _ in range(3)
+    ]
+    parts = [
+        path.assign(seed=seed, certified=[False, True, last_certified and seed != 1])
+        for seed, path in enumerate(paths)
+    ]
+    jamming = pd.DataFrame({"jamming_solid_fraction_loading": [0.60, 0.10, 0.62]})
+    read = []
+
+    def read_seed(number):
+        read.append(number)
+        return contacts[number]
+
+    certificate = pd.concat(parts, ignore_index=True)
+    return *energy_split_results(GRADING, certificate, paths, jamming, read_seed, **RULE), read
+
+
+def test_rule_reads_the_certified_seeds_one_by_one_and_takes_their_own_jamming(contacts):
+    tables, fit, read = rule_on(contacts)
+    assert read == [0, 2]
+    assert fit.exponent.estimate == pytest.approx(3.0, abs=1e-9)
+    assert fit.packings.seeds == 2
+    assert fit.packings.branches == 500 + 520
+    assert fit.packings.jamming_solid_fraction == pytest.approx(0.61)
+    assert tables["path"]["state"].tolist() == [1, 2]
+    assert_allclose(tables["path"]["solid_fraction_above_jamming"], [0.10, 0.11], rtol=1e-9)
+    assert tables["table"]["branches"].sum() == 500 + 520
+
+
+def test_rule_without_a_certified_seed_says_why_and_reads_nothing(contacts):
+    tables, fit, read = rule_on(contacts, last_certified=False)
+    assert read == []
+    assert fit.reason.startswith("no packing is certified at the end of its loading: 3 of 3")
+    assert fit.packings is None
+    assert tables == {name: {"reason": [fit.reason]} for name in ("table", "path")}
+
+
+def test_rule_on_branches_of_one_length_keeps_what_is_known_of_the_packings(contacts):
+    same = [table.assign(radius_i_m=2e-4, radius_j_m=3e-4) for table in contacts]
+    tables, fit, _ = rule_on(same)
+    assert "two or more branch lengths" in fit.reason
+    assert fit.packings.branches == 500 + 520
+    assert tables["table"] == {"reason": [fit.reason]}

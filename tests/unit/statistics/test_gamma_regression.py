@@ -219,6 +219,27 @@ def test_one_step_gives_the_interval_of_real_refits_however_the_scales_differ(na
     assert_allclose(found.high - found.low, expected.high - expected.low, rtol=within)
 
 
+def test_a_draw_is_one_step_of_newtons_method_from_its_own_scale():
+    # Seeds whose energies differ by far and follow other laws, under a design that is not linear.
+    rng, kept = np.random.default_rng(8), []
+    laws = [(-1.0, 1.0, 2.0), (0.5, 2.0, 0.5), (2.0, 0.0, 3.0)]
+    seeds = [drawn(rng, 200, name="both_radii", law=law) for law in laws]
+    fit, states = gamma_fit(seeds, SIZES), {"resamples": 20, "rng": np.random.default_rng(1)}
+    parameter_intervals(fit, lambda theta: kept.append(theta) or theta, **states)
+
+    def score(draw, theta):
+        parts = [(energy, *SIZES(theta, *columns)) for *columns, energy in seeds]
+        return draw @ [(energy * np.exp(-eta) - 1.0) @ slope for energy, eta, slope in parts]
+
+    for draw, refit in zip(seed_draws(3, 20, np.random.default_rng(1)), kept[-1], strict=True):
+        relative = [energy * np.exp(-SIZES(fit.parameters, *xy)[0]) for *xy, energy in seeds]
+        start = fit.parameters + np.array([np.log(draw @ np.mean(relative, axis=1) / 3), 0.0])
+        shifts = 1e-5 * np.eye(2)
+        slope = [(score(draw, start + x) - score(draw, start - x)) / 2e-5 for x in shifts]
+        step = np.linalg.solve(np.transpose(slope), score(draw, start))
+        assert_allclose(refit, start - step, atol=1e-5)
+
+
 def test_wanted_functions_of_the_parameters_have_intervals_of_their_own():
     rng = np.random.default_rng(6)
     fit = gamma_fit([drawn(rng, 200) for _ in range(6)], design("branch_length"))

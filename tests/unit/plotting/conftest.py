@@ -1,0 +1,45 @@
+"""What a test of a figure needs: its Axes read as numbers, and every figure closed after it."""
+
+import numpy as np
+import pytest
+from matplotlib import pyplot as plt
+
+
+class Reading:
+    """What an Axes shows, as numbers."""
+
+    def line(self, ax, label):
+        """Return x and y, shape (2, n), of the one line or set of points with this label."""
+        (line,) = (one for one in ax.lines if str(one.get_label()) == label)
+        return self.points(line)
+
+    def points(self, line):
+        """Return x and y of a line, shape (2, n)."""
+        return np.array([line.get_xdata(), line.get_ydata()], dtype=float)
+
+    def bars(self, container, axis="y"):
+        """Return lower and upper ends of the bars of points, shape (2, n)."""
+        (bars,) = container[2]
+        column = "xy".index(axis)
+        return np.array([segment[:, column] for segment in bars.get_segments()], dtype=float).T
+
+    def band(self, collection):
+        """Return x, lower and upper end of a band, shape (3, n), at each x it was given."""
+        x, y = collection.get_paths()[0].vertices.T
+        at = np.unique(x)
+        return np.array([at, [y[x == v].min() for v in at], [y[x == v].max() for v in at]])
+
+    def texts(self, ax):
+        """Return the texts of the legend."""
+        return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+@pytest.fixture
+def shown():
+    return Reading()
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    plt.close("all")
