@@ -117,7 +117,7 @@ def assortativity(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> Interval:
     r"""Return how alike the two radii of a contact are: their correlation over contacts.
 
@@ -174,7 +174,7 @@ def contact_number_table(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, NDArray]:
     r"""Return the contact number by radius, with and without rattlers, with intervals.
 
