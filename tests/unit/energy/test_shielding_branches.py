@@ -159,8 +159,10 @@ def test_thirty_branches_as_unequal_as_the_claim_answer_it(unequal, claim):
     # Lengths from 1 to 2 whatever the ratio, and E = l^3 exactly: nothing is shielded.
     seeds = []
     for few in unequal:
-        ratio = np.concatenate([np.full(few, 0.08), np.full(100, 0.97), np.full(100, 0.5)])
-        length = np.concatenate([np.linspace(1.0, 2.0, n) for n in (few, 100, 100)])
+        # Those of 0.15 are not as unequal, however many.
+        numbers = (few, 50, 100, 100)
+        ratio = np.repeat([0.08, 0.15, 0.5, 0.97], numbers)
+        length = np.concatenate([np.linspace(1.0, 2.0, n) for n in numbers])
         large = np.log(length / (1.0 + ratio))
         seeds.append((large + np.log(ratio), large, length**3))
     table, summary = branch_shielding(seeds, **options())

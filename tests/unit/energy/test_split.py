@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.energy.split import cubic_r_squared, energy_split
+from branchcrush.energy.split import PAPER_EXPONENT, cubic_r_squared, energy_split
 from branchcrush.statistics.power_law import PowerLaw
 
 # --- energy-split function -----------------------------------------------------------------------
@@ -53,6 +53,7 @@ def test_empty_bins_are_nan_and_never_the_reference():
 def test_exact_cubic_has_its_slope_and_an_r_squared_of_1():
     relative = np.array([0.1, 0.5, 1.0, 2.0])
     assert_allclose(cubic_r_squared(relative, 0.8 * relative**3), (0.8, 1.0), rtol=1e-14)
+    assert PAPER_EXPONENT == 3.0
 
 
 def test_cubic_of_three_bins_worked_by_hand():
