@@ -8,7 +8,11 @@ from numpy.testing import assert_allclose
 
 from branchcrush.gradings.forms import fractal, lognormal, normal, uniform
 from branchcrush.gradings.mixtures import from_radii, mixture, single
-from branchcrush.gradings.representativity import realised_gap, representativity
+from branchcrush.gradings.representativity import (
+    realised_gap,
+    representativity,
+    representativity_report,
+)
 from branchcrush.gradings.sampling import sampled_radii
 
 # --- before drawing ------------------------------------------------------------------------------
@@ -24,6 +28,19 @@ def test_one_size_needs_a_box_of_five_diameters_only():
     assert (found.grains_needed, found.verdict) == (125, "accept")
     verdicts = [representativity(single(1.0), n, np.pi / 6).verdict for n in (26, 27, 124, 125)]
     assert verdicts == ["refuse", "warn", "warn", "accept"]
+
+
+def test_five_coarse_grains_are_refused_ten_accepted_where_the_box_is_large():
+    # A fortieth of the grains carry the coarsest tenth; at a solid fraction of 0.1 the box of five
+    # diameters needs 96 grains only.
+    share = 1 - 0.9**0.25
+    few, enough = int(np.ceil(5 / share)), int(np.ceil(10 / share))
+    judged = [
+        representativity(uniform(1e-9, 1.0), grains, 0.1).verdict
+        for grains in (few - 1, few, enough - 1, enough)
+    ]
+    assert judged == ["refuse", "warn", "warn", "accept"]
+    assert representativity(uniform(1e-9, 1.0), few, 0.1).grains_needed == enough
 
 
 def test_coarsest_tenth_of_the_uniform_grading_is_a_fortieth_of_the_grains():
@@ -137,3 +154,26 @@ def test_gap_of_mass_quantiles_falls_with_their_number():
         for n in (100, 1000, 10_000)
     ]
     assert gaps[0] > gaps[1] > gaps[2]
+
+
+def test_report_has_the_mean_and_the_largest_gap_of_the_seeds():
+    target = mixture([single(1.0), single(2.0)], [1.0, 1.0], "mass")
+    standing = representativity(target, 9, 0.5)
+    # Eight grains of 1 m weigh as much as one of 2 m; the second seed has the latter only.
+    report = representativity_report(standing, target, [[2.0] + [1.0] * 8, [2.0]])
+    stands = report["representativity"]
+    assert stands["largest_gap_percent_mean"] == pytest.approx(25.0, rel=1e-12)
+    assert stands["largest_gap_percent_max"] == pytest.approx(50.0, rel=1e-12)
+    assert report["target"]["D_min_m"] == 2.0
+    # Smallest diameters of 2 and of 4 m; <R> of 10/9 and of 2 m.
+    assert report["realised"]["D_min_m"] == 3.0
+    assert report["realised"]["mean_radius_1_m1"] == pytest.approx((10 / 9 + 2) / 2, rel=1e-12)
+
+
+def test_report_warns_unless_the_number_is_accepted():
+    enough, few = (representativity(single(1.0), grains, np.pi / 6) for grains in (125, 124))
+    warnings = [
+        representativity_report(standing, single(1.0), [[1.0]])["representativity"]["warnings"]
+        for standing in (enough, few)
+    ]
+    assert warnings == [[], [few.message]]
