@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.packings.contact_laws import HertzContact, LinearContact, reduced_radius
 from branchcrush.packings.contacts import mean_stress
-from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_energy, grain_stress_volume, neighbour_ratio
 from branchcrush.packings.network import Network
 
@@ -192,9 +191,3 @@ def test_the_ratio_to_neighbours_does_not_know_the_unit(seed, unit):
     packing = random_network(LAWS[0], seed, 20, 40, 5)
     scaled = replace(packing, radius=unit * packing.radius)
     assert_allclose(neighbour_ratio(scaled), neighbour_ratio(packing), rtol=1e-12)
-
-
-def test_volume_of_a_sphere_is_that_of_its_shells():
-    shells = np.linspace(0.0, 2.0, 10_001)
-    assert_allclose(sphere_volume(2.0), np.trapezoid(4.0 * np.pi * shells**2, shells), rtol=1e-7)
-    assert_allclose(sphere_volume([1.0, 3.0])[1] / sphere_volume(1.0), 27.0)
