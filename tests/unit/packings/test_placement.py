@@ -207,11 +207,12 @@ def test_crowded_packing_is_the_one_placed_one_by_one(radii, solid_fraction, per
     assert_placed_one_by_one(radii, edge, 5, periodic=periodic)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [2, 3, 24])
 def test_spheres_a_little_smaller_than_the_first_find_places_nearer_to_the_corners(seed):
     # One sphere leaves the corners of the cube only. Of spheres that are tried together the small
-    # ones reach farther out, along the diagonals by 1.7 of what their radii differ by.
-    radii = np.append(0.9, 0.3 * np.linspace(1.0, 0.981, 6))
+    # ones reach farther out, along the diagonals by 1.7 of what their radii differ by; with these
+    # seeds one of them lies where a larger one would not.
+    radii = np.append(0.9, np.tile([0.27, 0.981 * 0.27], 3))
     assert_placed_one_by_one(radii, 2.0, seed, periodic=False)
 
 
