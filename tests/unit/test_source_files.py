@@ -163,11 +163,11 @@ def test_direct_imports_leave_out_what_those_import():
         "gradings.distribution",
         "packings.geometry",
     }
-    assert imported_modules(file_of("loading.states")) == {
+    assert imported_modules(file_of("loading.path")) == {
+        "loading.measures",
+        "loading.states",
         "packings.contact_laws",
-        "packings.contacts",
         "packings.geometry",
-        "errors",
     }
 
 

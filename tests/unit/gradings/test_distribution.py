@@ -124,8 +124,8 @@ def test_unit_of_length_does_not_change_the_curves(data, unit):
     here, there = (FORMS[form](u, 50 * u, 7 * u, by, 1.5) for u in (1.0, unit))
     radius = np.geomspace(0.9, 60.0, 30)
     for name in ("number_cdf", "mass_cdf"):
-        found, expected = getattr(there, name)(radius * unit), getattr(here, name)(radius)
-        assert_allclose(found, expected, rtol=0, atol=1e-11)
+        result, expected = getattr(there, name)(radius * unit), getattr(here, name)(radius)
+        assert_allclose(result, expected, rtol=0, atol=1e-11)
     assert_allclose(there.moment(3), here.moment(3) * unit**3, rtol=1e-10)
 
 

@@ -96,8 +96,8 @@ def test_normal(by):
     mean, deviation = 400.0, 120.0
     grading = normal(mean, deviation, 1.0, RATIO, by)
     cut = stats.truncnorm((1 - mean) / deviation, (RATIO - mean) / deviation, mean, deviation)
-    found = grading.number_cdf(RADIUS) if by == "number" else grading.mass_cdf(RADIUS)
-    assert_allclose(found, cut.cdf(RADIUS), rtol=1e-9, atol=1e-14)
+    result = grading.number_cdf(RADIUS) if by == "number" else grading.mass_cdf(RADIUS)
+    assert_allclose(result, cut.cdf(RADIUS), rtol=1e-9, atol=1e-14)
     power = 3 if by == "number" else -3
 
     def part(low, high):

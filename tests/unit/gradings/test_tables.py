@@ -51,9 +51,9 @@ def test_density_is_straight_between_its_points():
 
 
 def test_density_by_mass_at_one_value_is_the_uniform_grading_by_mass():
-    found, expected = from_density([1.0, 9.0], [7.0, 7.0], "mass"), uniform(1.0, 9.0, "mass")
+    result, expected = from_density([1.0, 9.0], [7.0, 7.0], "mass"), uniform(1.0, 9.0, "mass")
     radius = np.linspace(1.0, 9.0, 7)
-    assert_allclose(found.number_cdf(radius), expected.number_cdf(radius), rtol=1e-12)
+    assert_allclose(result.number_cdf(radius), expected.number_cdf(radius), rtol=1e-12)
 
 
 def test_range_without_density_at_the_end_of_a_table_is_left_out():

@@ -59,9 +59,9 @@ def test_energies_of_grains_add_up_to_that_of_the_contacts_and_walls(law, **part
     packing = random_network(law, **parts)
     # What the law itself says of a wall, which is a grain without end.
     of_walls = law.energy(packing.wall_force, packing.radius[packing.wall_grain])
-    found = grain_energy(packing, law.exponent)
-    assert_allclose(found.sum(), packing.energy.sum() + of_walls.sum(), rtol=1e-12, atol=1e-300)
-    assert np.all(found[packing.contacts + packing.wall_contacts == 0] == 0.0)
+    result = grain_energy(packing, law.exponent)
+    assert_allclose(result.sum(), packing.energy.sum() + of_walls.sum(), rtol=1e-12, atol=1e-300)
+    assert np.all(result[packing.contacts + packing.wall_contacts == 0] == 0.0)
 
 
 @varied
@@ -75,9 +75,9 @@ def test_stresses_of_grains_add_up_to_that_of_the_packing(law, **parts):
         packing.radius[packing.wall_grain] - packing.wall_overlap,
         packing.wall_force,
     )
-    found = grain_stress_volume(packing)
-    assert_allclose(found.sum(), whole * volume, rtol=1e-12, atol=1e-300)
-    assert np.all(found[packing.contacts + packing.wall_contacts == 0] == 0.0)
+    result = grain_stress_volume(packing)
+    assert_allclose(result.sum(), whole * volume, rtol=1e-12, atol=1e-300)
+    assert np.all(result[packing.contacts + packing.wall_contacts == 0] == 0.0)
 
 
 @varied
