@@ -1,0 +1,22 @@
+"""Branches, the lines between the centres of touching grains: their lengths, and who touches whom.
+
+`lengths`
+    What is counted: the number of grains and branches in a volume, and the distribution of lengths
+    beside Eq. 4, `branch_length_table` and `branch_statistics`.
+`random_contacts`
+    Eq. 4, any two grains as likely to touch: `random_contact_shares`, `random_contact_moment`.
+`contact_numbers`
+    Who touches whom, measured: `ContactSums` is what a seed adds, `contact_number_table`,
+    `pair_table` and `assortativity` what all seeds say.
+`coordination_models`, `parking`, `coordination`
+    Contact numbers from the grading alone. `MODELS` holds a `CoordinationModel` each, with its look
+    in figures; each returns a `Coordination`.
+`predictions`, `nodes`
+    Branch lengths that Eq. 4 and every model predict for a grading, a `Prediction` each, and how
+    far they are from the measured ones, `distances`. `PREDICTIONS` holds the looks of all.
+`coordination_laws`
+    Coordination numbers of the void ratio, the jamming law and its fit.
+
+A new model of contact numbers is a function of radii and their shares, and an entry of `MODELS`:
+its branch lengths, distances and figures follow.
+"""

@@ -1,11 +1,14 @@
 """Who touches whom, measured: contact numbers by radius, and the two radii of a contact."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.intervals import Interval, pooled_interval
 
 _CLASSES = 10
 
@@ -13,16 +16,16 @@ _CLASSES = 10
 class ContactSums(NamedTuple):
     """What one seed in one state adds to the contact statistics of a sample."""
 
-    grains: np.ndarray  # in each class of radius, shape (K,)
-    radii: np.ndarray  # sum of their radii [m]
-    contacts: np.ndarray  # sum of their contacts with other grains
-    bearing: np.ndarray  # grains that are no rattlers
-    bearing_contacts: np.ndarray  # and the sum of their contacts
-    pairs: np.ndarray  # contacts of each class with each, every contact twice, shape (K, K)
-    moments: np.ndarray  # of the two ends of a contact, of R and of ln R, shape (2, 4)
+    grains: NDArray  # in each class of radius, shape (K,)
+    radii: NDArray  # sum of their radii [m]
+    contacts: NDArray  # sum of their contacts with other grains
+    bearing: NDArray  # grains that are no rattlers
+    bearing_contacts: NDArray  # and the sum of their contacts
+    pairs: NDArray  # contacts of each class with each, every contact twice, shape (K, K)
+    moments: NDArray  # of the two ends of a contact, of R and of ln R, shape (2, 4)
 
 
-def radius_classes(radii, contacts, classes=_CLASSES):
+def radius_classes(radii: ArrayLike, contacts: ArrayLike, classes: int = _CLASSES) -> NDArray:
     """Return the edges of classes of radius that hold as many grains as contacts' ends each.
 
     By number alone all that carries load would be in one class where most grains are fines.
@@ -46,34 +49,44 @@ def radius_classes(radii, contacts, classes=_CLASSES):
     >>> radius_classes([1.0, 1.0, 4.0], [1, 1, 2]).tolist()
     [1.0, 2.0, 4.0]
     """
-    radii, contacts = np.asarray(radii, dtype=float), np.asarray(contacts, dtype=float)
-    values = np.unique(radii)
+    radius, ends = np.asarray(radii, dtype=float), np.asarray(contacts, dtype=float)
+    values = np.unique(radius)
     if values.size <= classes:
         inner = np.sqrt(values[:-1] * values[1:])
     else:
-        order = np.argsort(radii, kind="stable")
-        weight = np.cumsum(1.0 / radii.size + contacts[order] / max(contacts.sum(), 1.0))
+        order = np.argsort(radius, kind="stable")
+        weight = np.cumsum(1.0 / radius.size + ends[order] / max(ends.sum(), 1.0))
         levels = np.arange(1, classes) / classes * weight[-1]
-        inner = np.unique(radii[order][np.searchsorted(weight, levels)])
+        inner = np.unique(radius[order][np.searchsorted(weight, levels)])
         inner = inner[(inner > values[0]) & (inner < values[-1])]
     return np.concatenate([values[:1], inner, values[-1:]])
 
 
-def contact_sums(network, edges):
+def contact_sums(network: Network, edges: ArrayLike) -> ContactSums:
     """Return what one seed adds to the contact statistics.
 
     Parameters
     ----------
-    network : networks.Network
+    network : Network
     edges : array_like, shape (K+1,)
         Edges of the classes of radius [m].
 
     Returns
     -------
     ContactSums
+
+    Examples
+    --------
+    >>> nothing = np.zeros(0)
+    >>> network = Network(np.array([1.0, 3.0]), np.array([0]), np.array([1]), *3 * (nothing,),
+    ...                   np.zeros(0, dtype=int), nothing, nothing)
+    >>> sums = contact_sums(network, [1.0, 2.0, 3.0])
+    >>> sums.contacts.tolist(), sums.pairs.tolist()
+    ([1.0, 1.0], [[0, 1], [1, 0]])
     """
-    classes = len(edges) - 1
-    group = bin_numbers(network.radius, edges)
+    ends = np.asarray(edges, dtype=float)
+    classes = ends.size - 1
+    group = bin_numbers(network.radius, ends)
     contacts, bearing = network.contacts, network.bearing
     grains, radii, touching, held, held_touching = (
         np.bincount(group, weights, minlength=classes)
@@ -82,14 +95,14 @@ def contact_sums(network, edges):
     cell = group[network.i] * classes + group[network.j]
     pairs = np.bincount(cell, minlength=classes**2).reshape(classes, classes)
     # Scaled: cubes and squares of metres would be lost beside counts.
-    ends = network.radius_i / edges[-1], network.radius_j / edges[-1]
-    moments = [_end_moments(*kind) for kind in (ends, (np.log(ends[0]), np.log(ends[1])))]
+    first, second = network.radius_i / ends[-1], network.radius_j / ends[-1]
+    moments = [_end_moments(first, second), _end_moments(np.log(first), np.log(second))]
     return ContactSums(
         grains, radii, touching, held, held_touching, pairs + pairs.T, np.array(moments)
     )
 
 
-def _end_moments(first, second):
+def _end_moments(first: NDArray, second: NDArray) -> list[float]:
     """Return the sums over contacts, each taken in both orders, of 1, x, x^2 and x y."""
     return [
         2.0 * first.size,
@@ -99,7 +112,13 @@ def _end_moments(first, second):
     ]
 
 
-def assortativity(sums, *, confidence=0.95, resamples=2000, rng):
+def assortativity(
+    sums: Sequence[ContactSums],
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> Interval:
     r"""Return how alike the two radii of a contact are: their correlation over contacts.
 
     .. math:: a = \frac{\langle x y\rangle - \langle x\rangle^2}
@@ -125,7 +144,7 @@ def assortativity(sums, *, confidence=0.95, resamples=2000, rng):
     Newman (2003), Phys. Rev. E 67, 026126.
     """
 
-    def correlation(moments):
+    def correlation(moments: NDArray) -> NDArray:
         number, first, square, product = np.moveaxis(moments, -1, 0)
         with np.errstate(invalid="ignore", divide="ignore"):
             mean = first / number
@@ -141,7 +160,14 @@ def assortativity(sums, *, confidence=0.95, resamples=2000, rng):
     )
 
 
-def contact_number_table(sums, edges, *, confidence=0.95, resamples=2000, rng):
+def contact_number_table(
+    sums: Sequence[ContactSums],
+    edges: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, NDArray]:
     r"""Return the contact number by radius, with and without rattlers, with intervals.
 
     .. math:: c(R) = \frac{\sum_g z_g}{N(R)}, \qquad c^*(R) = \frac{\sum_{g \notin r} z_g}{N^*(R)}
@@ -163,29 +189,30 @@ def contact_number_table(sums, edges, *, confidence=0.95, resamples=2000, rng):
     """
     names = ("contact_number", "load_bearing_contact_number", "rattler_fraction")
 
-    def ratios(totals):
+    def ratios(totals: NDArray) -> NDArray:
         grains, contacts, bearing, bearing_contacts = np.moveaxis(totals, 1, 0)
         with np.errstate(invalid="ignore", divide="ignore"):
             parts = contacts / grains, bearing_contacts / bearing, 1.0 - bearing / grains
         return np.stack(parts, axis=1)
 
     totals = [(s.grains, s.contacts, s.bearing, s.bearing_contacts) for s in sums]
-    found = pooled_interval(totals, ratios, confidence=confidence, resamples=resamples, rng=rng)
-    grains = sum(seed.grains for seed in sums)
+    limits = pooled_interval(totals, ratios, confidence=confidence, resamples=resamples, rng=rng)
+    grains = np.sum([seed.grains for seed in sums], axis=0)
     with np.errstate(invalid="ignore"):
-        mean_radius = sum(seed.radii for seed in sums) / grains
+        mean_radius = np.sum([seed.radii for seed in sums], axis=0) / grains
+    ends = np.asarray(edges)
     table = {
-        "radius_low_m": np.asarray(edges[:-1]),
-        "radius_high_m": np.asarray(edges[1:]),
+        "radius_low_m": ends[:-1],
+        "radius_high_m": ends[1:],
         "mean_radius_m": mean_radius,
         "grains": grains.astype(int),
     }
     for row, name in enumerate(names):
-        table |= found.part(row).named(name)
+        table |= limits.part(row).named(name)
     return table
 
 
-def pair_table(sums, edges):
+def pair_table(sums: Sequence[ContactSums], edges: ArrayLike) -> dict[str, NDArray]:
     r"""Return how often classes of radius touch, over what contact numbers alone would give.
 
     .. math:: \frac{M_{ab}}{M_a M_b / M}
@@ -206,19 +233,19 @@ def pair_table(sums, edges):
         radius_i_low_m, radius_i_high_m, radius_j_low_m, radius_j_high_m, contacts (in both
         orders), expected_contacts, ratio (nan where nothing is expected).
     """
-    pairs = sum(seed.pairs for seed in sums).astype(float)
+    pairs = np.sum([seed.pairs for seed in sums], axis=0).astype(float)
     of_class = pairs.sum(axis=1)
     expected = np.outer(of_class, of_class) / max(pairs.sum(), 1.0)
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = pairs / expected
-    classes = np.arange(len(edges) - 1)
-    i, j = (grid.ravel() for grid in np.meshgrid(classes, classes, indexing="ij"))
-    edges = np.asarray(edges)
+    ends = np.asarray(edges)
+    classes = np.arange(ends.size - 1)
+    first, second = (grid.ravel() for grid in np.meshgrid(classes, classes, indexing="ij"))
     return {
-        "radius_i_low_m": edges[i],
-        "radius_i_high_m": edges[i + 1],
-        "radius_j_low_m": edges[j],
-        "radius_j_high_m": edges[j + 1],
+        "radius_i_low_m": ends[first],
+        "radius_i_high_m": ends[first + 1],
+        "radius_j_low_m": ends[second],
+        "radius_j_high_m": ends[second + 1],
         "contacts": pairs.ravel().astype(int),
         "expected_contacts": expected.ravel(),
         "ratio": ratio.ravel(),

@@ -4,9 +4,13 @@ The historic relations come from packings of equal spheres under gravity, counte
 stain, near contacts among them; they say nothing of rattlers.
 """
 
-import numpy as np
+from collections.abc import Sequence
 
-from branchcrush.branches.coordination_models import ISOSTATIC
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from branchcrush.branches.coordination import ISOSTATIC
+from branchcrush.packings.network import Network
 from branchcrush.statistics.intervals import pooled_interval
 
 # Of the jamming law, for equal and nearly equal frictionless spheres.
@@ -16,7 +20,7 @@ _NEAREST, _FARTHEST = 0.003, 0.1
 _MIDDLE = np.log(np.sqrt(_NEAREST * _FARTHEST))
 
 
-def smith(void_ratio):
+def smith(void_ratio: ArrayLike) -> NDArray:
     r"""Return the coordination number by Smith's relation.
 
     .. math:: \kappa = 26.486 - 10.726\, (1 + e)
@@ -42,7 +46,7 @@ def smith(void_ratio):
     return 26.486 - 10.726 * (1.0 + np.asarray(void_ratio, dtype=float))
 
 
-def field(void_ratio):
+def field(void_ratio: ArrayLike) -> NDArray:
     r"""Return the coordination number by Field's relation.
 
     .. math:: \kappa = \frac{12}{1 + e}
@@ -68,7 +72,7 @@ def field(void_ratio):
     return 12.0 / (1.0 + np.asarray(void_ratio, dtype=float))
 
 
-def gray(void_ratio):
+def gray(void_ratio: ArrayLike) -> NDArray:
     r"""Return the coordination number by Gray's relation: kappa times the porosity is pi.
 
     .. math:: \kappa = \frac{\pi (1 + e)}{e}
@@ -91,11 +95,11 @@ def gray(void_ratio):
     ----------
     Gray (1968), The Packing of Solid Particles.
     """
-    void_ratio = np.asarray(void_ratio, dtype=float)
-    return np.pi * (1.0 + void_ratio) / void_ratio
+    ratio = np.asarray(void_ratio, dtype=float)
+    return np.pi * (1.0 + ratio) / ratio
 
 
-def jamming_law(above_jamming, prefactor=JAMMING_PREFACTOR):
+def jamming_law(above_jamming: ArrayLike, prefactor: float = JAMMING_PREFACTOR) -> NDArray:
     r"""Return the mechanical coordination number at a solid fraction above jamming.
 
     .. math:: \kappa^* = 6 + a \sqrt{\phi - \phi_J}
@@ -123,7 +127,7 @@ def jamming_law(above_jamming, prefactor=JAMMING_PREFACTOR):
     return ISOSTATIC + prefactor * np.sqrt(above_jamming)
 
 
-def isostatic_number(network):
+def isostatic_number(network: Network) -> float:
     r"""Return the mechanical coordination number that just holds a packing.
 
     .. math:: \kappa^*_{iso} = 6 - W^*/N^*
@@ -134,12 +138,12 @@ def isostatic_number(network):
 
     Parameters
     ----------
-    network : networks.Network
+    network : Network
 
     Returns
     -------
     float
-        6 in a periodic cell; nan when all grains are rattlers.
+        [-]; 6 in a periodic cell, nan when all grains are rattlers.
     """
     bearing = network.bearing
     if not bearing.any():
@@ -148,23 +152,22 @@ def isostatic_number(network):
 
 
 def jamming_law_fit(
-    above_jamming,
-    coordination,
-    isostatic=None,
+    above_jamming: Sequence[ArrayLike],
+    coordination: Sequence[ArrayLike],
+    isostatic: Sequence[ArrayLike] | None = None,
     *,
-    confidence=0.95,
-    resamples=2000,
-    rng,
-):
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, float]:
     r"""Return the jamming law of some packings with the exponent 1/2, and with a free one.
 
     .. math:: \kappa^* - \kappa^*_{iso} = a \sqrt{\phi - \phi_J}, \qquad
         \kappa^* - \kappa^*_{iso} = b\, (\phi - \phi_J)^{\nu}
 
     a by least squares, b and nu by least squares of the logarithms, over the states of each seed
-    from 0.003 to 0.1 above
-    jamming. nu leaves out states that are not above isostatic; `states_not_above` counts them, and
-    many say that the isostatic number or phi_J is wrong.
+    from 0.003 to 0.1 above jamming. nu leaves out states that are not above isostatic;
+    `states_not_above` counts them, and many say that the isostatic number or phi_J is wrong.
 
     Parameters
     ----------
@@ -190,36 +193,45 @@ def jamming_law_fit(
     >>> round(fit["prefactor"], 9), round(fit["exponent"], 9), fit["states"]
     (8.0, 0.5, 3)
     """
-    seeds = len(above_jamming)
-    isostatic = [ISOSTATIC] * seeds if isostatic is None else isostatic
-    sums, states, not_above = [], 0, 0
-    for x, number, least in zip(above_jamming, coordination, isostatic, strict=True):
-        x, excess = np.asarray(x, dtype=float), np.asarray(number, dtype=float) - least
-        near = (x >= _NEAREST) & (x <= _FARTHEST)
-        x, excess = x[near], excess[near]
-        positive = excess > 0.0
-        # About the middle of the range, so that the spread of the logarithms is no difference of
-        # large numbers.
-        u, v = np.log(x[positive]) - _MIDDLE, np.log(excess[positive])
-        sums.append([excess @ np.sqrt(x), x.sum(), u.size, u.sum(), v.sum(), u @ u, u @ v])
-        states, not_above = states + x.size, not_above + int(np.sum(~positive))
-
-    def laws(totals):
-        product, square, number, u, v, uu, uv = totals.T
-        with np.errstate(invalid="ignore", divide="ignore"):
-            spread = number * uu - u**2
-            # Zero but for rounding where all states are at one distance.
-            spread = np.where(spread > 1e-9 * number**2, spread, np.nan)
-            exponent = (number * uv - u * v) / spread
-            free = np.exp((v - exponent * u) / number - exponent * _MIDDLE)
-            return np.stack([product / square, exponent, free], axis=1)
-
-    limits = pooled_interval(sums, laws, confidence=confidence, resamples=resamples, rng=rng)
+    least = [ISOSTATIC] * len(above_jamming) if isostatic is None else isostatic
+    near = [_near_states(*seed) for seed in zip(above_jamming, coordination, least, strict=True)]
+    sums = [_law_sums(above, excess) for above, excess in near]
+    limits = pooled_interval(sums, _laws, confidence=confidence, resamples=resamples, rng=rng)
     return {
-        "states": states,
-        "states_not_above": not_above,
+        "states": sum(above.size for above, _ in near),
+        "states_not_above": sum(int(np.sum(~(excess > 0.0))) for _, excess in near),
         **limits.part(0).named("prefactor"),
         **limits.part(1).named("exponent"),
         # Without limits: it is the law's value at phi - phi_J = 1, far from all states.
         "free_prefactor": float(limits.estimate[2]),
     }
+
+
+def _near_states(
+    above_jamming: ArrayLike, coordination: ArrayLike, isostatic: ArrayLike
+) -> tuple[NDArray, NDArray]:
+    """Return phi - phi_J and kappa* - kappa*_iso of the states that count."""
+    above = np.asarray(above_jamming, dtype=float)
+    excess = np.asarray(coordination, dtype=float) - isostatic
+    near = (above >= _NEAREST) & (above <= _FARTHEST)
+    return above[near], excess[near]
+
+
+def _law_sums(above: NDArray, excess: NDArray) -> list[float]:
+    positive = excess > 0.0
+    # About the middle of the range, so that the spread of the logarithms is no difference of large
+    # numbers.
+    u, v = np.log(above[positive]) - _MIDDLE, np.log(excess[positive])
+    return [excess @ np.sqrt(above), above.sum(), u.size, u.sum(), v.sum(), u @ u, u @ v]
+
+
+def _laws(totals: NDArray) -> NDArray:
+    """Return a, nu and b of sums of shape (draws, 7)."""
+    product, square, number, u, v, uu, uv = totals.T
+    with np.errstate(invalid="ignore", divide="ignore"):
+        spread = number * uu - u**2
+        # Zero but for rounding where all states are at one distance.
+        spread = np.where(spread > 1e-9 * number**2, spread, np.nan)
+        exponent = (number * uv - u * v) / spread
+        free = np.exp((v - exponent * u) / number - exponent * _MIDDLE)
+        return np.stack([product / square, exponent, free], axis=1)

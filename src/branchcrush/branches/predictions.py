@@ -3,18 +3,18 @@
 In all of them but Eq. 4 two grains touch by their contact numbers: Q(R) = c(R) P(R)/kappa.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.branches.coordination_models import MODELS
-from branchcrush.branches.lengths import random_contact_shares
+from branchcrush.branches.nodes import CELLS, grading_nodes
+from branchcrush.branches.random_contacts import random_contact_shares
 from branchcrush.errors import FitError
+from branchcrush.gradings.distribution import Grading
 
-# Cells that a grading is cut into, by number and as many by mass.
-_CELLS = 200
-# Single radii of a grading that are kept as they are.
-_SINGLE = 100
 # A prime: no sum of two radii that are simple fractions of each other lies on an edge.
 _BINS = 997
 # A mode is where most branches are within this share of the whole range.
@@ -41,14 +41,14 @@ PREDICTIONS = {
 class Prediction(NamedTuple):
     """What a model says of a grading."""
 
-    shares: np.ndarray  # of the branches in each bin of length [-]
-    radius: np.ndarray  # nodes of the grading, shape (K,) [m]; empty for Eq. 4
-    share: np.ndarray  # their share of the grains [-]
-    contacts: np.ndarray  # c(R) at the nodes [-]
-    load_bearing: np.ndarray  # share of the grains of each node [-]
+    shares: NDArray  # of the branches in each bin of length [-]
+    radius: NDArray  # nodes of the grading, shape (K,) [m]; empty for Eq. 4
+    share: NDArray  # their share of the grains [-]
+    contacts: NDArray  # c(R) at the nodes [-]
+    load_bearing: NDArray  # share of the grains of each node [-]
 
 
-def fine_edges(radius_min, radius_max):
+def fine_edges(radius_min: float, radius_max: float) -> NDArray:
     """Return the edges of narrow bins of branch length, in which distributions are compared.
 
     Parameters
@@ -71,51 +71,7 @@ def fine_edges(radius_min, radius_max):
     return np.linspace(2.0 * radius_min - margin, 2.0 * radius_max + margin, _BINS + 1)
 
 
-def grading_nodes(grading):
-    """Return radii that stand for a grading, and their shares of the number of grains.
-
-    Parameters
-    ----------
-    grading : Grading
-
-    Returns
-    -------
-    radius, share : ndarray, shape (K,)
-        [m], [-]. The coarse grains, few by number, have as many nodes as the fine ones.
-
-    Examples
-    --------
-    >>> from branchcrush.gradings.mixtures import single
-    >>> from branchcrush.gradings.forms import uniform
-    >>> [part.tolist() for part in grading_nodes(single(1.0))]
-    [[1.0], [1.0]]
-    >>> radius, share = grading_nodes(uniform(1.0, 3.0))
-    >>> round(float(share @ radius), 4), round(float(share.sum()), 9)
-    (2.0, 1.0)
-    """
-    single, single_share = grading.discrete_part
-    if single.size > _SINGLE:
-        single, single_share = single[:0], single_share[:0]
-    elif grading.is_discrete:
-        return single, single_share
-    levels = np.linspace(0.0, 1.0, _CELLS + 1)[1:-1]
-    quantiles = np.concatenate([grading.number_ppf(levels), grading.mass_ppf(levels)])
-    inner, times = np.unique(quantiles, return_counts=True)
-    # The last of these nodes are single radii, which are cut into cells only when they are many.
-    nodes, weight = grading.quadrature(breaks=inner)
-    cut = nodes.size - single.size
-    # One that is more than a cell by itself has its own, without the fines that it outweighs.
-    ends = np.union1d(inner, np.nextafter(inner[times > 1], 0.0))
-    cell = np.searchsorted(ends, nodes[:cut])
-    share, sums = (np.bincount(cell, w) for w in (weight[:cut], weight[:cut] * nodes[:cut]))
-    kept = share > 1e-15
-    # Means, not middles: the last cell of a long tail reaches far beyond the grains in it.
-    radius = np.append(sums[kept] / share[kept], single)
-    share = np.append(share[kept], single_share)
-    return radius, share / share.sum()
-
-
-def pair_shares(radius, touched, edges):
+def pair_shares(radius: ArrayLike, touched: ArrayLike, edges: ArrayLike) -> NDArray:
     r"""Return the shares of branch lengths when ends are drawn independently, by their contacts.
 
     .. math:: B(l) = \int Q(R)\, Q(l - R)\, dR
@@ -136,15 +92,15 @@ def pair_shares(radius, touched, edges):
 
     Examples
     --------
-    >>> pair_shares(np.array([1.0, 2.0]), np.array([1.0, 3.0]), [1.5, 2.5, 3.5, 4.5]).tolist()
+    >>> pair_shares([1.0, 2.0], [1.0, 3.0], [1.5, 2.5, 3.5, 4.5]).tolist()
     [0.0625, 0.375, 0.5625]
     """
     ends = np.asarray(touched) / np.sum(touched)
-    length = radius[:, None] + radius
+    length = np.add.outer(radius, radius)
     return np.histogram(length.ravel(), edges, weights=np.outer(ends, ends).ravel())[0]
 
 
-def predictions(grading, edges):
+def predictions(grading: Grading, edges: ArrayLike) -> dict[str, Prediction]:
     """Return what Eq. 4 and every model of contact numbers say of a grading.
 
     Parameters
@@ -173,7 +129,7 @@ def predictions(grading, edges):
     """
     nothing = np.empty(0)
     shares = random_contact_shares(grading, edges)
-    found = {"random_contact": Prediction(shares, nothing, nothing, nothing, nothing)}
+    predicted = {"random_contact": Prediction(shares, nothing, nothing, nothing, nothing)}
     radius, share = grading_nodes(grading)
     for name, model in MODELS.items():
         try:
@@ -181,11 +137,11 @@ def predictions(grading, edges):
         except FitError:
             continue
         shares = pair_shares(radius, share * contacts, edges)
-        found[name] = Prediction(shares, radius, share, contacts, bearing)
-    return found
+        predicted[name] = Prediction(shares, radius, share, contacts, bearing)
+    return predicted
 
 
-def binned_predictions(models, edges):
+def binned_predictions(models: Mapping[str, Prediction], edges: ArrayLike) -> dict[str, NDArray]:
     """Return the shares of the branches by the models of contact numbers in other bins.
 
     Parameters
@@ -207,7 +163,9 @@ def binned_predictions(models, edges):
     }
 
 
-def lumped(radius, contacts, cells=2 * _CELLS):
+def lumped(
+    radius: ArrayLike, contacts: ArrayLike, cells: int = 2 * CELLS
+) -> tuple[NDArray, NDArray]:
     """Return grains in groups of nearly one radius: mean radius, and contacts of all of the group.
 
     Parameters
@@ -227,20 +185,20 @@ def lumped(radius, contacts, cells=2 * _CELLS):
     >>> [part.tolist() for part in lumped([1.0, 2.0, 1.0], [3, 9, 5])]
     [[1.0, 2.0], [8.0, 9.0]]
     """
-    radius, contacts = np.asarray(radius, dtype=float), np.asarray(contacts, dtype=float)
-    values, group = np.unique(radius, return_inverse=True)
+    radii, ends = np.asarray(radius, dtype=float), np.asarray(contacts, dtype=float)
+    values, group = np.unique(radii, return_inverse=True)
     if values.size > cells:
         # As many grains and contacts in each: the few that most branches end at are told apart.
-        order = np.argsort(radius, kind="stable")
-        weight = np.cumsum(1.0 / radius.size + contacts[order] / max(contacts.sum(), 1.0))
-        group = np.empty(radius.size, dtype=int)
+        order = np.argsort(radii, kind="stable")
+        weight = np.cumsum(1.0 / radii.size + ends[order] / max(ends.sum(), 1.0))
+        group = np.empty(radii.size, dtype=int)
         group[order] = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
         _, group = np.unique(group, return_inverse=True)
     number = np.bincount(group)
-    return np.bincount(group, radius) / number, np.bincount(group, contacts)
+    return np.bincount(group, radii) / number, np.bincount(group, ends)
 
 
-def distances(counts, shares, edges):
+def distances(counts: ArrayLike, shares: ArrayLike, edges: ArrayLike) -> dict[str, float]:
     r"""Return how far a predicted distribution of branch length is from the measured one.
 
     .. math:: D = \max_l |F(l) - \hat F(l)|
@@ -261,7 +219,7 @@ def distances(counts, shares, edges):
 
     Examples
     --------
-    >>> distances([2, 2], [0.25, 0.75], np.array([1.0, 2.0, 3.0]))["kolmogorov_smirnov"]
+    >>> distances([2, 2], [0.25, 0.75], [1.0, 2.0, 3.0])["kolmogorov_smirnov"]
     0.25
     """
     measured = np.cumsum(counts) / np.sum(counts)
@@ -273,19 +231,32 @@ def distances(counts, shares, edges):
     }
 
 
-def mean_length(shares, edges):
-    """Return the mean branch length of a distribution in narrow bins [m].
+def mean_length(shares: ArrayLike, edges: ArrayLike) -> float:
+    """Return the mean branch length of a distribution in narrow bins.
+
+    Parameters
+    ----------
+    shares : array_like, shape (n,)
+        Counts or shares of the branches in narrow bins.
+    edges : array_like, shape (n+1,)
+        Bin edges [m].
+
+    Returns
+    -------
+    float
+        [m]
 
     Examples
     --------
-    >>> mean_length([1, 3], np.array([1.0, 2.0, 3.0]))
+    >>> mean_length([1, 3], [1.0, 2.0, 3.0])
     2.25
     """
-    return float(np.average((edges[:-1] + edges[1:]) / 2.0, weights=shares))
+    ends = np.asarray(edges, dtype=float)
+    return float(np.average((ends[:-1] + ends[1:]) / 2.0, weights=np.asarray(shares)))
 
 
-def mode_length(shares, edges):
-    """Return the middle of the tenth of the range in which most branches are [m].
+def mode_length(shares: ArrayLike, edges: ArrayLike) -> float:
+    """Return the middle of the tenth of the range in which most branches are.
 
     Single narrow bins are too noisy to tell.
 
@@ -299,16 +270,18 @@ def mode_length(shares, edges):
     Returns
     -------
     float
+        [m]
 
     Examples
     --------
     >>> round(mode_length(np.exp(-np.linspace(-3.0, 2.0, 500) ** 2), np.linspace(0, 5, 501)), 1)
     3.0
     """
+    ends = np.asarray(edges, dtype=float)
     below = np.append(0.0, np.cumsum(shares))
-    width = max(round(_MODE_WINDOW * len(shares)), 1)
+    width = max(round(_MODE_WINDOW * np.size(shares)), 1)
     inside = below[width:] - below[:-width]
     # The middle of all that hold the most: single lengths give a plateau.
     most = np.flatnonzero(inside >= inside.max() * (1.0 - 1e-12))
     first = most[: np.flatnonzero(np.diff(np.append(most, most[-1] + 2)) > 1)[0] + 1].mean()
-    return float(np.interp(first + width / 2.0, np.arange(len(edges)), edges))
+    return float(np.interp(first + width / 2.0, np.arange(ends.size), ends))

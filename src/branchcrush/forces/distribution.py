@@ -1,10 +1,15 @@
 """The network of contact forces: how broad it is, how its tail falls, and what carries it."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
+from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import binned_sums
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.intervals import Interval, pooled_interval
 from branchcrush.statistics.power_law import binned_exponent
 
 # Narrow enough to show the peak below the mean force.
@@ -15,7 +20,7 @@ _LAST = 100.0
 THRESHOLDS = (1.0, 2.0, 3.0)
 
 
-def relative_forces(force):
+def relative_forces(force: ArrayLike) -> NDArray:
     r"""Return the forces over their mean, F/<F>.
 
     Parameters
@@ -33,11 +38,17 @@ def relative_forces(force):
     >>> relative_forces([1.0, 3.0]).tolist()
     [0.5, 1.5]
     """
-    force = np.asarray(force, dtype=float)
-    return force / force.mean() if force.size else force
+    forces = np.asarray(force, dtype=float)
+    return forces / forces.mean() if forces.size else forces
 
 
-def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
+def force_distribution(
+    forces: Sequence[ArrayLike],
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, NDArray]:
     r"""Return the distribution of relative forces, P(F/<F>), with intervals.
 
     Parameters
@@ -51,7 +62,7 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
     -------
     dict of ndarray
         force_low and force_high over the mean force, contacts, density with _low and _high, in
-        equal bins up to the one of the largest force.
+        equal bins up to the one of the largest force; all beyond a hundred mean forces are in one.
 
     Examples
     --------
@@ -59,26 +70,32 @@ def force_distribution(forces, *, confidence=0.95, resamples=2000, rng):
     >>> table["density"][:2].tolist(), int(table["contacts"].sum())
     ([2.0, 0.0], 4)
     """
-    largest = max((np.max(force, initial=0.0) for force in forces), default=0.0)
+    largest = max((float(np.max(force, initial=0.0)) for force in forces), default=0.0)
     edges = np.arange(0.0, min(largest, _LAST) + _BIN, _BIN)
     if largest > edges[-1]:
         edges = np.append(edges, max(largest, edges[-1] + _BIN))
     counts = np.array([np.histogram(force, edges)[0] for force in forces])
 
-    def density(totals):
+    def density(totals: NDArray) -> NDArray:
         number = np.maximum(totals.sum(axis=1, keepdims=True), 1.0)
         return totals / number / np.diff(edges)
 
-    found = pooled_interval(counts, density, confidence=confidence, resamples=resamples, rng=rng)
+    limits = pooled_interval(counts, density, confidence=confidence, resamples=resamples, rng=rng)
     return {
         "force_low": edges[:-1],
         "force_high": edges[1:],
         "contacts": counts.sum(axis=0),
-        **found.named("density"),
+        **limits.named("density"),
     }
 
 
-def share_below_mean(forces, *, confidence=0.95, resamples=2000, rng):
+def share_below_mean(
+    forces: Sequence[ArrayLike],
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> Interval:
     r"""Return the share of the contacts with less than the mean force.
 
     Parameters
@@ -98,7 +115,7 @@ def share_below_mean(forces, *, confidence=0.95, resamples=2000, rng):
     >>> share_below_mean([[0.5, 0.5, 2.0]], rng=None).estimate
     0.6666666666666666
     """
-    sums = [(np.count_nonzero(np.asarray(force) < 1.0), len(force)) for force in forces]
+    sums = [(np.count_nonzero(np.asarray(force) < 1.0), np.size(force)) for force in forces]
     return pooled_interval(
         sums,
         lambda totals: totals[:, 0] / np.maximum(totals[:, 1], 1.0),
@@ -108,7 +125,14 @@ def share_below_mean(forces, *, confidence=0.95, resamples=2000, rng):
     )
 
 
-def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
+def force_tail(
+    forces: Sequence[ArrayLike],
+    threshold: float,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, float]:
     r"""Return how the distribution of relative forces falls above a threshold.
 
     .. math:: \beta = \frac{1}{\langle f - t \rangle_{f > t}}, \qquad
@@ -129,8 +153,8 @@ def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
     Returns
     -------
     dict
-        threshold, share of the contacts above it, decay_rate and squared_variation with _low and
-        _high; nan where fewer than two forces are above.
+        threshold; share_above, of the contacts, decay_rate beta and squared_variation v, each with
+        _low and _high [-]; nan where fewer than two forces are above.
 
     Examples
     --------
@@ -141,16 +165,16 @@ def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
     """
     excess = [np.asarray(force)[np.asarray(force) > threshold] - threshold for force in forces]
     sums = [
-        (above.size, above.sum(), above @ above, len(force))
+        (above.size, above.sum(), above @ above, np.size(force))
         for above, force in zip(excess, forces, strict=True)
     ]
 
-    def tail(totals):
+    def tail(totals: NDArray) -> NDArray:
         number, first, second, contacts = totals.T
         with np.errstate(invalid="ignore", divide="ignore"):
             mean = first / number
-            found = number / contacts, 1.0 / mean, second / number / mean**2 - 1.0
-        return np.where(number[:, None] > 1, np.stack(found, axis=1), np.nan)
+            parts = number / contacts, 1.0 / mean, second / number / mean**2 - 1.0
+        return np.where(number[:, None] > 1, np.stack(parts, axis=1), np.nan)
 
     limits = pooled_interval(sums, tail, confidence=confidence, resamples=resamples, rng=rng)
     return {
@@ -161,14 +185,21 @@ def force_tail(forces, threshold, *, confidence=0.95, resamples=2000, rng):
     }
 
 
-def force_by_length(networks, edges, *, confidence=0.95, resamples=2000, rng):
+def force_by_length(
+    networks: Sequence[Network],
+    edges: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> tuple[dict[str, NDArray], Interval | None]:
     r"""Return the mean relative force in bins of branch length, and its exponent.
 
     .. math:: \langle F \rangle(l) \sim l^m
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     edges : array_like, shape (n+1,)
         Bin edges [m].
@@ -183,35 +214,44 @@ def force_by_length(networks, edges, *, confidence=0.95, resamples=2000, rng):
     exponent : Interval or None
         None where the lengths bear no power law.
     """
-    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    ends = np.asarray(edges, dtype=float)
     sums = np.array(
-        [binned_sums(seed.length, relative_forces(seed.force), edges) for seed in networks]
+        [binned_sums(seed.length, relative_forces(seed.force), ends) for seed in networks]
     )
 
-    def means(totals):
+    def means(totals: NDArray) -> NDArray:
         with np.errstate(invalid="ignore", divide="ignore"):
             mean = totals[:, 2].sum(axis=1) / totals[:, 0].sum(axis=1)
             return totals[:, 2] / totals[:, 0] / mean[:, None]
 
-    found = pooled_interval(sums, means, **options)
+    limits = pooled_interval(sums, means, **options)
+    exponent: Interval | None
     try:
         exponent = binned_exponent(sums, **options)[1]
     except FitError:
         exponent = None
     return {
-        "branch_length_low_m": np.asarray(edges[:-1]),
-        "branch_length_high_m": np.asarray(edges[1:]),
+        "branch_length_low_m": ends[:-1],
+        "branch_length_high_m": ends[1:],
         "branches": sums[:, 0].sum(axis=0).astype(int),
-        **found.named("mean_force"),
+        **limits.named("mean_force"),
     }, exponent
 
 
-def force_network_result(networks, edges, *, confidence=0.95, resamples=2000, rng):
+def force_network_result(
+    networks: Sequence[Network],
+    edges: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> tuple[dict[str, dict[str, NDArray]], dict[str, Any]]:
     r"""Return all that this module tells of the forces of a sample in one state.
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     edges : array_like, shape (n+1,)
         Bins of branch length [m].
@@ -226,7 +266,7 @@ def force_network_result(networks, edges, *, confidence=0.95, resamples=2000, rn
         share_below_mean with _low and _high; tails, one a threshold, as `force_tail`; by_length,
         the exponent with _low and _high, empty where the lengths bear no power law.
     """
-    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
     forces = [relative_forces(network.force) for network in networks]
     by_length, exponent = force_by_length(networks, edges, **options)
     below = share_below_mean(forces, **options)

@@ -1,9 +1,12 @@
 """The fabric: how evenly the branches point in all directions, beside what chance would give."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
-def fabric_tensor(vectors, weights=None):
+def fabric_tensor(vectors: ArrayLike, weights: ArrayLike | None = None) -> NDArray:
     r"""Return the fabric tensor of branches, or of their forces.
 
     .. math:: \mathbf{F} = \frac{\sum_b w_b\, \mathbf{n}_b \otimes \mathbf{n}_b}{\sum_b w_b}
@@ -29,13 +32,13 @@ def fabric_tensor(vectors, weights=None):
     ----------
     Satake (1982); Oda (1982), Soils and Foundations 22, 96.
     """
-    vectors = np.asarray(vectors, dtype=float)
-    normals = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-    weights = np.ones(len(normals)) if weights is None else np.asarray(weights, dtype=float)
-    return (normals * (weights / weights.sum())[:, None]).T @ normals
+    lines = np.asarray(vectors, dtype=float)
+    normals = lines / np.linalg.norm(lines, axis=1, keepdims=True)
+    parts = np.ones(len(normals)) if weights is None else np.asarray(weights, dtype=float)
+    return (normals * (parts / parts.sum())[:, None]).T @ normals
 
 
-def deviator(tensor):
+def deviator(tensor: ArrayLike) -> NDArray:
     r"""Return the size of a fabric tensor's deviator, 0 for an isotropic one.
 
     .. math:: q = \sqrt{\tfrac{3}{2}}\, \left\| \mathbf{F} - \mathbf{I}/3 \right\|
@@ -43,6 +46,7 @@ def deviator(tensor):
     Parameters
     ----------
     tensor : array_like, shape (..., 3, 3)
+        [-]
 
     Returns
     -------
@@ -58,7 +62,7 @@ def deviator(tensor):
     return np.sqrt(1.5 * np.sum(off**2, axis=(-2, -1)))
 
 
-def effective_branches(number, weights=None):
+def effective_branches(number: int, weights: ArrayLike | None = None) -> float:
     r"""Return how many equal branches have as much sampling noise as weighted ones.
 
     .. math:: M_{\mathrm{eff}} = \frac{(\sum_b w_b)^2}{\sum_b w_b^2}
@@ -68,10 +72,12 @@ def effective_branches(number, weights=None):
     number : int
         M.
     weights : array_like, shape (M,), optional
+        Of any scale; all alike without them.
 
     Returns
     -------
     float
+        [-]; M at most.
 
     Examples
     --------
@@ -80,11 +86,11 @@ def effective_branches(number, weights=None):
     """
     if weights is None:
         return float(number)
-    weights = np.asarray(weights, dtype=float)
-    return float(weights.sum() ** 2 / (weights @ weights))
+    parts = np.asarray(weights, dtype=float)
+    return float(parts.sum() ** 2 / (parts @ parts))
 
 
-def expected_deviator(branches):
+def expected_deviator(branches: float) -> float:
     r"""Return the deviator that independent, isotropic branches have by chance, its mean square.
 
     .. math:: \sqrt{\langle q^2 \rangle} = 1/\sqrt{M}
@@ -99,6 +105,7 @@ def expected_deviator(branches):
     Returns
     -------
     float
+        [-]
 
     Examples
     --------
@@ -108,7 +115,7 @@ def expected_deviator(branches):
     return float(1.0 / np.sqrt(branches))
 
 
-def chance_range(seeds, confidence=0.95):
+def chance_range(seeds: int, confidence: float = 0.95) -> tuple[float, float]:
     r"""Return the range by chance of the deviator over the expected one, root mean square of seeds.
 
     .. math:: \frac{1}{S} \sum_s \frac{q_s^2}{\langle q^2 \rangle_s} \sim \frac{\chi^2_{5S}}{5S}
@@ -125,6 +132,7 @@ def chance_range(seeds, confidence=0.95):
     Returns
     -------
     low, high : float
+        [-]
 
     Examples
     --------
@@ -138,7 +146,9 @@ def chance_range(seeds, confidence=0.95):
     return float(low), float(high)
 
 
-def fabric_result(vectors, forces, *, confidence=0.95):
+def fabric_result(
+    vectors: Sequence[ArrayLike], forces: Sequence[ArrayLike], *, confidence: float = 0.95
+) -> tuple[list[dict[str, float]], dict[str, dict[str, float]]]:
     r"""Return the fabric of every seed, and whether it is as isotropic as chance allows.
 
     Independent branches would be in `chance_range`. The branches of one grain keep away from each
@@ -163,28 +173,40 @@ def fabric_result(vectors, forces, *, confidence=0.95):
         Of `branches` and `forces`: the root mean square of the deviator over the expected one, its
         range by chance (low, high), and the deviator of the mean tensor of all seeds with what
         chance gives it.
+
+    Examples
+    --------
+    >>> axes = np.eye(3)
+    >>> rows, summary = fabric_result([axes], [[1.0, 1.0, 2.0]])
+    >>> rows[0]["deviator"], round(rows[0]["force_deviator"], 12)
+    (0.0, 0.25)
     """
-    rows, tensors, branches = [], {"branches": [], "forces": []}, {"branches": [], "forces": []}
-    for vector, force in zip(vectors, forces, strict=True):
-        row = {"branches": len(force)}
-        for kind, key, weights in (("branches", "", None), ("forces", "force_", force)):
-            tensor = fabric_tensor(vector, weights)
-            number = effective_branches(len(force), weights)
+    rows: list[dict[str, float]] = [{"branches": np.size(force)} for force in forces]
+    summary = {}
+    weighed: dict[str, tuple[str, Sequence[ArrayLike | None]]] = {
+        "branches": ("", [None] * len(rows)),
+        "forces": ("force_", forces),
+    }
+    for kind, (key, weights) in weighed.items():
+        tensors, numbers = [], []
+        for row, vector, weight in zip(rows, vectors, weights, strict=True):
+            tensor = fabric_tensor(vector, weight)
+            number = effective_branches(int(row["branches"]), weight)
             row[f"{key}deviator"] = float(deviator(tensor))
             row[f"expected_{key}deviator"] = expected_deviator(number)
-            tensors[kind].append(tensor)
-            branches[kind].append(number)
-        rows.append(row)
-    low, high = chance_range(len(rows), confidence)
-    summary = {}
-    for kind in tensors:
-        single = deviator(np.array(tensors[kind])) ** 2 * np.array(branches[kind])
-        noise = np.sqrt(np.sum(1.0 / np.array(branches[kind]))) / len(rows)
-        summary[kind] = {
-            "deviator_over_expected": float(np.sqrt(single.mean())),
-            "by_chance_low": low,
-            "by_chance_high": high,
-            "deviator_of_mean": float(deviator(np.mean(tensors[kind], axis=0))),
-            "expected_deviator_of_mean": float(noise),
-        }
+            tensors.append(tensor)
+            numbers.append(number)
+        summary[kind] = _of_seeds(np.array(tensors), np.array(numbers), confidence)
     return rows, summary
+
+
+def _of_seeds(tensors: NDArray, numbers: NDArray, confidence: float) -> dict[str, float]:
+    low, high = chance_range(len(numbers), confidence)
+    over_expected = deviator(tensors) ** 2 * numbers
+    return {
+        "deviator_over_expected": float(np.sqrt(over_expected.mean())),
+        "by_chance_low": low,
+        "by_chance_high": high,
+        "deviator_of_mean": float(deviator(np.mean(tensors, axis=0))),
+        "expected_deviator_of_mean": float(np.sqrt(np.sum(1.0 / numbers)) / len(numbers)),
+    }

@@ -1,23 +1,35 @@
 """How the stress of a packing is shared among grains of different radius."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_stress_volume
+from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.intervals import pooled_interval
 
 _POINTS = 100
 
 
-def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
+def stress_by_radius(
+    networks: Sequence[Network],
+    edges: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> dict[str, NDArray]:
     r"""Return the mean stress of the grains of each class of radius over that of all.
 
     .. math:: \frac{\sum_{g \in k} p_g V_g / \sum_{g \in k} V_g}{\sum_g p_g V_g / \sum_g V_g}
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     edges : array_like, shape (K+1,)
         Classes of radius [m].
@@ -30,30 +42,25 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
         radius_low_m, radius_high_m, mean_radius_m, grains; stress_ratio with _low and _high, and
         load_bearing_stress_ratio, of the grains that are no rattlers.
     """
-    classes, sums = len(edges) - 1, []
-    grains, radii = np.zeros(classes), np.zeros(classes)
-    for network in networks:
-        group = bin_numbers(network.radius, edges)
-        stress, volume = grain_stress_volume(network), sphere_volume(network.radius)
-        bearing = network.bearing
-        parts = (stress, volume, bearing * stress, bearing * volume)
-        sums.append([np.bincount(group, part, classes) for part in parts])
-        grains += np.bincount(group, minlength=classes)
-        radii += np.bincount(group, network.radius, classes)
+    ends = np.asarray(edges, dtype=float)
+    sums = [_class_sums(network, ends) for network in networks]
+    grains, radii = np.sum([seed[:2] for seed in sums], axis=0)
 
-    def ratios(totals):
+    def ratios(totals: NDArray) -> NDArray:
         stress, volume, held_stress, held_volume = np.moveaxis(totals, 1, 0)
         mean = stress.sum(axis=1) / volume.sum(axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            found = np.stack([stress / volume, held_stress / held_volume], axis=1)
-        return found / mean[:, None, None]
+            of_classes = np.stack([stress / volume, held_stress / held_volume], axis=1)
+        return of_classes / mean[:, None, None]
 
-    limits = pooled_interval(sums, ratios, confidence=confidence, resamples=resamples, rng=rng)
+    limits = pooled_interval(
+        [seed[2:] for seed in sums], ratios, confidence=confidence, resamples=resamples, rng=rng
+    )
     with np.errstate(invalid="ignore"):
         mean_radius = radii / grains
     table = {
-        "radius_low_m": np.asarray(edges[:-1]),
-        "radius_high_m": np.asarray(edges[1:]),
+        "radius_low_m": ends[:-1],
+        "radius_high_m": ends[1:],
         "mean_radius_m": mean_radius,
         "grains": grains.astype(int),
     }
@@ -62,7 +69,22 @@ def stress_by_radius(networks, edges, *, confidence=0.95, resamples=2000, rng):
     return table
 
 
-def cumulative_sharing(radius, stress_volume, volume_share):
+def _class_sums(network: Network, edges: NDArray) -> NDArray:
+    """Return what one seed has in each class of radius, shape (6, K).
+
+    Grains, and the sums of their radii, of stress times volume and of volume; the last two again of
+    the grains that are no rattlers.
+    """
+    group = bin_numbers(network.radius, edges)
+    stress, volume = grain_stress_volume(network), sphere_volume(network.radius)
+    bearing = network.bearing
+    parts = (None, network.radius, stress, volume, bearing * stress, bearing * volume)
+    return np.array([np.bincount(group, part, edges.size - 1) for part in parts], dtype=float)
+
+
+def cumulative_sharing(
+    radius: ArrayLike, stress_volume: ArrayLike, volume_share: ArrayLike
+) -> NDArray:
     r"""Return the share of the stress that the finest grains with a share of the volume carry.
 
     .. math:: S(x) = \frac{\sum_{g:\, \text{finest}} p_g V_g}{\sum_g p_g V_g}, \qquad
@@ -85,16 +107,22 @@ def cumulative_sharing(radius, stress_volume, volume_share):
     >>> cumulative_sharing([2.0, 1.0, 1.0], [8.0, 0.0, 2.0], [0.0, 0.2, 1.0]).tolist()
     [0.0, 0.2, 1.0]
     """
-    volume, group = np.unique(radius, return_inverse=True)
+    radii, group = np.unique(radius, return_inverse=True)
     # Grains of one radius come together, in whatever order they are.
-    volume = np.bincount(group) * volume**3
+    volume = np.bincount(group) * radii**3
     stress = np.bincount(group, stress_volume)
     at = np.append(0.0, np.cumsum(volume)) / volume.sum()
     carried = np.append(0.0, np.cumsum(stress)) / stress.sum()
-    return np.interp(volume_share, at, carried)
+    return np.interp(np.asarray(volume_share), at, carried)
 
 
-def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
+def stress_sharing(
+    networks: Sequence[Network],
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> tuple[dict[str, NDArray], dict[str, float]]:
     r"""Return the cumulative stress against the cumulative volume, from the finest grains on.
 
     .. math:: I = 2 \int_0^1 (x - S(x))\, dx
@@ -104,7 +132,7 @@ def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     confidence, resamples, rng
         As for `statistics.intervals.pooled_interval`.
@@ -139,12 +167,19 @@ def stress_sharing(networks, *, confidence=0.95, resamples=2000, rng):
     }
 
 
-def stress_sharing_result(networks, classes, *, confidence=0.95, resamples=2000, rng):
+def stress_sharing_result(
+    networks: Sequence[Network],
+    classes: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator | None,
+) -> tuple[dict[str, dict[str, NDArray]], dict[str, float]]:
     r"""Return all that this module tells of the stress of a sample in one state.
 
     Parameters
     ----------
-    networks : list of networks.Network
+    networks : list of Network
         One a seed.
     classes : array_like, shape (K+1,)
         Classes of radius [m].
@@ -158,7 +193,7 @@ def stress_sharing_result(networks, classes, *, confidence=0.95, resamples=2000,
     summary : dict
         As of `stress_sharing`.
     """
-    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
     by_radius = stress_by_radius(networks, classes, **options)
     table, summary = stress_sharing(networks, **options)
     return {"stress_by_radius": by_radius, "stress_sharing": table}, summary

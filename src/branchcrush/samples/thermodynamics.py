@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from branchcrush.branches.lengths import random_contact_moment
+from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
 from branchcrush.crushing.model import CrushingLaw, reference_energy, theta
 from branchcrush.crushing.path import crushing_path

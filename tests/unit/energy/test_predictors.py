@@ -251,3 +251,9 @@ def test_branches_without_energy_are_left_out_of_the_columns():
     assert_allclose(np.exp(large), [0.5, 1.0])
     assert energy.tolist() == [5.0, 7.0]
     assert_allclose(np.exp(log_length(small, large)), [0.75, 1.75])
+
+
+def test_branches_with_more_than_a_hundred_millionth_of_the_mean_are_kept():
+    # The mean of the four is 1.
+    _, _, energy = branch_columns(np.ones(4), np.ones(4), [2.0, 2.0, 3e-8, 3e-9], 1.0)
+    assert energy.tolist() == [2.0, 2.0, 3e-8]

@@ -176,3 +176,13 @@ def test_a_radius_ratio_on_an_edge_is_in_the_bin_below():
     assert table["radius_ratio_high"][[1, 3, 7, 10]].tolist() == [0.1, 0.3, 0.7, 1.0]
     assert table["branches"].tolist() == [0, 200, 0, 200, 0, 0, 0, 200, 0, 0, 200]
     assert_allclose(table["mean_radius_ratio"][[1, 3, 7, 10]], [0.1, 0.3, 0.7, 1.0])
+
+
+def test_law_of_equal_lengths_is_that_of_narrow_bins():
+    # Ratios rise with the length, from 0.1 to 1, and E = l^3 exactly. In wide bins of length the
+    # unequal branches of each would seem to hold less than they should.
+    ratio = np.linspace(0.11, 1.0, 3000)
+    large = np.log(np.geomspace(0.3, 2.0, 3000) / (1.0 + ratio))
+    seeds = [(large + np.log(ratio), large, np.geomspace(0.3, 2.0, 3000) ** 3)] * 2
+    table, _ = branch_shielding(seeds, **options())
+    assert_allclose(table["energy_ratio"][2:], 1.0, atol=0.01)

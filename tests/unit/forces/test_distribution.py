@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose
 
 from branchcrush.forces.distribution import (
-    THRESHOLDS,
     force_by_length,
     force_distribution,
     force_network_result,
@@ -94,6 +93,14 @@ def test_a_force_just_beyond_many_means_is_no_peak():
     assert_allclose(table["density"][-1], 1.0 / 1000 / 0.25)
 
 
+def test_density_of_the_wide_last_bin_is_over_its_own_width():
+    # Bins of 0.25 up to 100, and one from there to the largest force.
+    table = force_distribution([[1.1, 1.1, 1.1, 300.0]], rng=None)
+    assert (table["force_low"][-1], table["force_high"][-1]) == (100.0, 300.0)
+    assert_allclose(table["density"][-1], 0.25 / 200.0)
+    assert_allclose(table["density"][4], 0.75 / 0.25)
+
+
 def test_density_of_exponential_forces_is_exponential_within_its_interval():
     forces = rng_of().standard_exponential((20, CONTACTS))
     table = force_distribution(forces, rng=rng_of(2))
@@ -123,11 +130,15 @@ def test_share_below_the_mean_is_that_of_the_law(draw, share):
     assert found.low < found.estimate < found.high
 
 
+def test_forces_of_exactly_the_mean_are_not_below_it():
+    assert share_below_mean([[1.0, 1.0, 0.5, 1.5]], rng=None).estimate == 0.25
+
+
 # --- tail ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("rate", [0.7, 1.0, 2.5])
-@pytest.mark.parametrize("threshold", THRESHOLDS)
+@pytest.mark.parametrize("threshold", [1.0, 2.0, 3.0])
 def test_an_exponential_tail_has_its_rate_at_every_threshold(rate, threshold):
     forces = rng_of().standard_exponential((SEEDS, 30_000)) / rate
     tail = force_tail(forces, threshold, rng=rng_of(2))
@@ -153,7 +164,7 @@ def test_a_gaussian_tail_bends_down_and_a_broad_one_does_not():
     rng = rng_of()
     for draw, sign in ((half_normal, -1.0), (lambda rng, n: rng.lognormal(-0.5, 1.0, n), 1.0)):
         forces = [relative_forces(draw(rng, 20_000)) for _ in range(SEEDS)]
-        tails = [force_tail(forces, threshold, rng=rng_of(2)) for threshold in THRESHOLDS]
+        tails = [force_tail(forces, threshold, rng=rng_of(2)) for threshold in (1.0, 2.0, 3.0)]
         rates = [tail["decay_rate"] for tail in tails]
         assert np.all(np.diff(rates) * sign < 0.0)
         outside = tails[0]["squared_variation_high" if sign < 0 else "squared_variation_low"]
@@ -178,6 +189,12 @@ def test_two_equal_excesses_have_no_variation_and_one_has_no_tail():
     assert_allclose(tail["share_above"], 2.0 / 3.0)
     assert np.isnan(force_tail([[0.5, 3.0]], 1.0, rng=None)["decay_rate"])
     assert np.isnan(force_tail([[0.5, 1.0]], 1.0, rng=None)["squared_variation"])
+
+
+def test_a_force_of_exactly_the_threshold_is_not_above_it():
+    tail = force_tail([[1.0, 1.0, 2.0, 4.0]], 1.0, rng=None)
+    # Excesses of 1 and 3: mean 2, variance 1.
+    assert (tail["share_above"], tail["decay_rate"], tail["squared_variation"]) == (0.5, 0.5, 0.25)
 
 
 # --- length --------------------------------------------------------------------------------------
@@ -219,21 +236,24 @@ def test_grains_of_one_radius_have_no_exponent():
 # --- all of it -----------------------------------------------------------------------------------
 
 
-def test_the_result_is_that_of_its_parts():
-    networks = power_law_networks(rng_of(), 0.0, seeds=3)
-    tables, summary = force_network_result(networks, EDGES, resamples=50, rng=rng_of(2))
-    forces = [relative_forces(seed.force) for seed in networks]
-    parts = force_distribution(forces, resamples=50, rng=rng_of(2))
-    assert_array_equal(tables["force_distribution"]["density"], parts["density"])
-    for tail, threshold in zip(summary["tails"], THRESHOLDS, strict=True):
-        expected = force_tail(forces, threshold, resamples=50, rng=rng_of(2))
-        assert tail["decay_rate"] == expected["decay_rate"]
-    below = share_below_mean(forces, rng=rng_of(2)).estimate
-    assert summary["share_below_mean"] == below
-    assert summary["share_below_mean_low"] < below < summary["share_below_mean_high"]
-    found = force_by_length(networks, EDGES, resamples=50, rng=rng_of(2))
-    assert summary["by_length"]["exponent"] == found[1].estimate
-    assert_array_equal(tables["force_by_length"]["mean_force"], found[0]["mean_force"])
+def test_result_of_eight_forces_known_by_hand():
+    # Six of 1/6 between small grains, 2.5 and 4.5 between large ones: their mean is 1.
+    radius = np.repeat([0.5, 1.0], 4)
+    i, j = [0, 0, 0, 1, 1, 2, 4, 5], [1, 2, 3, 2, 3, 3, 5, 6]
+    seed = network(radius, np.array(i), np.array(j), 7.0 * np.array([1 / 6] * 6 + [2.5, 4.5]))
+    tables, summary = force_network_result([seed] * 2, [0.9, 1.5, 2.1], rng=rng_of())
+    assert_allclose(summary["share_below_mean"], 0.75)
+    assert [tail["threshold"] for tail in summary["tails"]] == [1.0, 2.0, 3.0]
+    # Two seeds, so two forces above the last threshold: no variation.
+    assert_allclose([tail["share_above"] for tail in summary["tails"]], [0.25, 0.25, 0.125])
+    assert_allclose([tail["decay_rate"] for tail in summary["tails"]], [0.4, 1 / 1.5, 1 / 1.5])
+    expected = [(1.0 / 2.5) ** 2, (1.0 / 1.5) ** 2, 0.0]
+    assert_allclose([tail["squared_variation"] for tail in summary["tails"]], expected, atol=1e-12)
+    # 1/6 at a length of 1, 3.5 at 2.
+    assert_allclose(tables["force_by_length"]["mean_force"], [1 / 6, 3.5])
+    assert_allclose(summary["by_length"]["exponent"], np.log2(21.0))
+    assert tables["force_distribution"]["contacts"].tolist()[:1] == [12]
+    assert tables["force_distribution"]["contacts"].sum() == 16
 
 
 def test_each_seed_is_divided_by_its_own_mean():

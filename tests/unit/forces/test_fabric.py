@@ -172,6 +172,3 @@ def test_only_forces_that_depend_on_direction_lean():
 def test_as_many_forces_as_branches_are_needed():
     with pytest.raises(ValueError, match="zip"):
         fabric_result([np.eye(3)], [])
-
-
-# --- the order of LAMMPS -------------------------------------------------------------------------

@@ -208,12 +208,18 @@ def test_intervals_of_the_index_cover_the_truth():
     assert covered >= 86
 
 
-def test_the_result_is_that_of_its_parts():
-    networks = [random_network(rng_of(seed), 60, 200, 20) for seed in range(3)]
-    tables, summary = stress_sharing_result(networks, [0.0, 0.5, 2.0], resamples=20, rng=rng_of())
-    _, expected = stress_sharing(networks, resamples=20, rng=rng_of())
+def test_result_of_three_grains_known_by_hand():
+    # Volumes 1, 1 and 8, stresses 1, 1 and 2: a fifth of the volume carries a ninth.
+    packing = loaded([1.0, 1.0, 2.0], [1.0, 1.0, 2.0])
+    tables, summary = stress_sharing_result([packing] * 2, [0.5, 1.5, 2.5], rng=rng_of())
     assert list(tables) == ["stress_by_radius", "stress_sharing"]
-    assert tables["stress_by_radius"]["grains"].sum() == 180
-    assert_allclose(summary["sharing_index"], expected["sharing_index"])
-    index = 2.0 * np.trapezoid(SHARES - tables["stress_sharing"]["stress_share"], SHARES)
-    assert_allclose(summary["sharing_index"], index)
+    by_radius, sharing = tables.values()
+    assert by_radius["grains"].tolist() == [4, 2]
+    assert_allclose(by_radius["stress_ratio"], [1.0 / 1.8, 2.0 / 1.8])
+    assert_allclose(sharing["stress_share"][[20, 60, 100]], [1 / 9, 5 / 9, 1.0])
+    # S rises to 1/9 at x = 0.2, and on to 1: x - S is a triangle of height 0.2 - 1/9.
+    for name, expected in (
+        ("coarse_half_stress_share", 1.0 - (1 / 9 + 3 / 8 * 8 / 9)),
+        ("sharing_index", 0.2 - 1 / 9),
+    ):
+        assert_allclose([summary[name + part] for part in ("", "_low", "_high")], expected)
