@@ -14,7 +14,7 @@ with job(snakemake.log[0]):
         contact_law(**params.sample["contact"]).exponent,
         read_table(files.certificate),
         [read_table(path) for path in files.paths],
-        lambda number: read_contacts(files, number, vectors=True),
+        lambda number, states: read_contacts(files, number, vectors=True, states=states),
         bins=params.bins,
         **params.intervals,
     )

@@ -17,11 +17,13 @@ with job(snakemake.log[0]):
         refined_states=[read_table(path) for path in files.refined_states],
         once=(
             [read_table(path) for path in files.paths],
-            lambda number: read_table(files.contacts[number], ENERGY_COLUMNS),
+            lambda number, state: read_table(files.contacts[number], ENERGY_COLUMNS, [state]),
         ),
         twice=(
             [read_table(path) for path in files.refined_paths],
-            lambda number: read_table(files.refined_contacts[number], ENERGY_COLUMNS),
+            lambda number, state: read_table(
+                files.refined_contacts[number], ENERGY_COLUMNS, [state]
+            ),
         ),
         report=read_json(files.grading),
         fit=EnergySplitFit.read(read_json(files.fit)),

@@ -171,7 +171,7 @@ def binned_predictions(models: Mapping[str, Prediction], edges: ArrayLike) -> di
 
 
 def lumped(
-    radius: ArrayLike, contacts: ArrayLike, cells: int = 2 * CELLS
+    radius: ArrayLike, contacts: ArrayLike, cells: int = 2 * CELLS, order: NDArray | None = None
 ) -> tuple[NDArray, NDArray]:
     """Return grains in groups of nearly one radius: mean radius, and contacts of all of the group.
 
@@ -181,6 +181,8 @@ def lumped(
         Of each grain [m], [-].
     cells : int
         Groups at most.
+    order : array_like of int, shape (N,), optional
+        The stable one of increasing radius, for who asks for many states of the same grains.
 
     Returns
     -------
@@ -193,14 +195,16 @@ def lumped(
     [[1.0, 2.0], [8.0, 9.0]]
     """
     radii, ends = np.asarray(radius, dtype=float), np.asarray(contacts, dtype=float)
-    values, group = np.unique(radii, return_inverse=True)
-    if values.size > cells:
+    order = np.argsort(radii, kind="stable") if order is None else order
+    ascending = np.cumsum(np.diff(radii[order], prepend=radii[order[:1]]) > 0.0)
+    if ascending[-1] >= cells:
         # As many grains and contacts in each: the few that most branches end at are told apart.
-        order = np.argsort(radii, kind="stable")
         weight = np.cumsum(1.0 / radii.size + ends[order] / max(ends.sum(), 1.0))
-        group = np.empty(radii.size, dtype=int)
-        group[order] = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
-        _, group = np.unique(group, return_inverse=True)
+        ascending = np.minimum(weight / weight[-1] * cells, cells - 1).astype(int)
+        # Numbered without gaps.
+        ascending = np.cumsum(np.diff(ascending, prepend=ascending[:1]) > 0)
+    group = np.empty(radii.size, dtype=int)
+    group[order] = ascending
     number = np.bincount(group)
     return np.bincount(group, radii) / number, np.bincount(group, ends)
 

@@ -18,7 +18,7 @@ class SeedFiles(Protocol):
 
 
 def read_contacts(
-    files: SeedFiles, number: int, *, vectors: bool = False
+    files: SeedFiles, number: int, *, vectors: bool = False, states: Sequence[int] | None = None
 ) -> tuple[np.ndarray, Table, Table]:
     """Return radii, contacts and wall contacts of a seed, for `packings.network.state_network`.
 
@@ -29,6 +29,8 @@ def read_contacts(
         Which seed, counted from 0.
     vectors : bool
         Whether the branch vectors are wanted, which take half as much again.
+    states : sequence of int, optional
+        Those of the contacts that are wanted; all by default.
 
     Returns
     -------
@@ -39,5 +41,5 @@ def read_contacts(
     """
     _, radii, _ = read_packing(files.packings[number])
     columns = COLUMNS + VECTOR_COLUMNS if vectors else COLUMNS
-    contacts = read_table(files.contacts[number], columns)
+    contacts = read_table(files.contacts[number], columns, states)
     return radii, contacts, read_table(files.walls[number], WALL_COLUMNS)

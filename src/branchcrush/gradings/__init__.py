@@ -19,5 +19,5 @@ simulation counts, or by mass, as a sieve weighs.
     Whether N grains can stand for a grading, and how near the drawn ones come to it.
 
 A new form is a function of `forms` that returns `truncated(density, ...)`, an entry of `FORMS` in
-`tests/unit/gradings/test_forms.py`, and its section in `config.gradings`.
+`tests/unit/gradings/test_distribution.py`, and its section in `config.gradings`.
 """

@@ -141,6 +141,7 @@ def length_prediction_rows(
     predicted = {name: model.shares for name, model in models.items()}
     middle = (edges[:-1] + edges[1:]) / 2.0
     radius = np.concatenate([seed.radius for seed in seeds])
+    order = np.argsort(radius, kind="stable")
     rows = []
     for number, state in enumerate(path.to_dict("records")):
         counts = np.array([seed.lengths[number] for seed in seeds])
@@ -161,7 +162,7 @@ def length_prediction_rows(
             "measured_mode_length_m": mode_length(total, edges),
         }
         contacts = np.concatenate([seed.contacts[number] for seed in seeds])
-        by_number = pair_shares(*lumped(radius, contacts), edges)
+        by_number = pair_shares(*lumped(radius, contacts, order=order), edges)
         rows += [
             {**measured, "prediction": name, **distances(total, shares, edges)}
             for name, shares in ({"configuration": by_number} | predicted).items()

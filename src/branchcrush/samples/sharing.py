@@ -1,6 +1,6 @@
 """Rule sharing: how grains and branches share energy, force and stress in all seeds of a sample."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import pandas as pd
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from branchcrush.forces.stress import stress_sharing_result
 from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.network import Network, state_networks
 from branchcrush.samples.ensemble import certified_loading, named_states
-from branchcrush.samples.seed_contacts import SeedReader, sample_classes
+from branchcrush.samples.seed_contacts import sample_classes
 from branchcrush.statistics.bins import bin_edges
 from branchcrush.statistics.intervals import Resampling
 
@@ -36,7 +36,7 @@ def sharing_results(
     contact_exponent: float,
     certificate: pd.DataFrame,
     paths: Sequence[pd.DataFrame],
-    read_seed: SeedReader,
+    read_seed: Callable[[int, Sequence[int]], tuple],
     *,
     bins: int,
     confidence: float,
@@ -55,8 +55,9 @@ def sharing_results(
     paths : list of DataFrame
         The `path.csv` of each seed.
     read_seed : callable
-        As for `samples.seed_contacts.sample_contacts`, its contacts with branch vectors; called
-        for one seed after the other.
+        Takes the number of a seed, from 0, and the states wanted; returns radii, contacts with
+        branch vectors and wall contacts as for `packings.network.state_networks`. Called for one
+        seed after the other.
     bins : int
         Of branch length.
     confidence, resamples
@@ -79,7 +80,7 @@ def sharing_results(
     networks: dict[str, list[Network]] = {where: [] for where in states}
     classes = None
     for number in used:
-        packing = read_seed(number)
+        packing = read_seed(number, list(states.values()))
         if classes is None:
             classes = sample_classes(grading, *packing, states["end"])
         for where, network in zip(states, state_networks(*packing, states.values()), strict=True):

@@ -23,6 +23,9 @@ _LARGEST_EXPONENT_CHANGE = 0.1
 _MOST_NAMED = 5
 
 
+Run = tuple[Sequence[pd.DataFrame], Callable[[int, int], pd.DataFrame]]
+
+
 def verdict_results(
     grading: Grading,
     states: pd.DataFrame,
@@ -30,8 +33,8 @@ def verdict_results(
     paths: Sequence[pd.DataFrame],
     *,
     refined_states: Sequence[pd.DataFrame],
-    once: tuple[Sequence[pd.DataFrame], Callable[[int], pd.DataFrame]],
-    twice: tuple[Sequence[pd.DataFrame], Callable[[int], pd.DataFrame]],
+    once: Run,
+    twice: Run,
     report: dict,
     fit: EnergySplitFit,
     bins: int,
@@ -50,7 +53,8 @@ def verdict_results(
         The `certificate.csv` of the seeds run again with twice the strain steps, if there are any.
     once, twice : tuple
         Of these seeds in both runs: the list of their `path.csv`, and what takes the number of one
-        and returns its `contacts.parquet`, of it at least `samples.seed_branches.ENERGY_COLUMNS`.
+        and a state and returns its `contacts.parquet` in that state, of it at least
+        `samples.seed_branches.ENERGY_COLUMNS`.
     report : dict
         `grading.json`, for its representativity.
     fit : EnergySplitFit
@@ -68,7 +72,7 @@ def verdict_results(
     runs = []
     for run_paths, read_seed in (once, twice):
         ends = [int(end_of_loading(path)["state"]) for path in run_paths]
-        sums = [state_sums(read_seed(number), end, edges) for number, end in enumerate(ends)]
+        sums = [state_sums(read_seed(number, end), end, edges) for number, end in enumerate(ends)]
         runs.append((run_paths, sums))
     certificates = [states, *refined_states] if refined_states else []
     convergence = convergence_table(certificates, *runs)

@@ -223,7 +223,7 @@ def parameter_intervals(
         + \Big(\sum_s w_s A_s(\rho)\Big)^{-1} \sum_s w_s g_s(\rho), \qquad
         \rho = \frac{\sum_s w_s \sum_b E_b e^{-\eta_b}}{\sum_s w_s M_s}
 
-    w_s says how often seed s is drawn. The scale of the draw is found first, exactly: seeds may
+    w_s says how often seed s is drawn. The scale of the draw comes first, exactly: seeds may
     differ in it by far. From there it is one step of Newton's method towards the fit of the draw;
     g_s is the score of seed s and A_s its information, with all means times rho.
 

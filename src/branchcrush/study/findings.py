@@ -1,6 +1,6 @@
 """All samples of a study beside each other: the rows of `findings.csv`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from branchcrush.branches.coordination_laws import jamming_law_fit
@@ -81,6 +81,7 @@ def finding_row(
 
 def _exponents(sample: SampleResults, distance: float) -> dict[str, Any]:
     packings, path = sample.fit.packings, sample.path
+    assert packings is not None  # a fit without a reason has them
     return {
         "seeds": packings.seeds,
         "solid_fraction": packings.solid_fraction,
@@ -92,7 +93,7 @@ def _exponents(sample: SampleResults, distance: float) -> dict[str, Any]:
     }
 
 
-def _at(where: str, interval: Interval, name: str) -> dict[str, float]:
+def _at(where: str, interval: Interval, name: str) -> dict[str, Any]:
     """Return an interval by the names of its columns in a state, as name_low_end."""
     return {f"{name}{limit}_{where}": value for limit, value in zip(LIMITS, interval, strict=True)}
 
@@ -110,16 +111,16 @@ def _split(state: StateFit, where: str) -> dict[str, Any]:
     return {**row, f"best_predictor_{where}": _best(known.values())}
 
 
-def _best(predictors: Sequence[FittedPredictor]) -> str | None:
+def _best(predictors: Iterable[FittedPredictor]) -> str | None:
     """Return which predictor explains most, None where two explain the same or none is known."""
     # Of those with one exponent or two: the full surface is the ceiling, no rival.
     explained = {one.name: one.explained.estimate for one in predictors if one.name != "surface"}
-    scored = {name: value for name, value in explained.items() if value == value}
-    ranked = sorted(scored, key=scored.get, reverse=True)
+    known = [(value, name) for name, value in explained.items() if value == value]
+    ranked = sorted(known, reverse=True)
     # With two lengths of branches, or none apart, all say the same.
-    if len(ranked) < 2 or scored[ranked[0]] - scored[ranked[1]] < _TIED:
+    if len(ranked) < 2 or ranked[0][0] - ranked[1][0] < _TIED:
         return None
-    return ranked[0]
+    return ranked[0][1]
 
 
 def _lengths(numbers: Mapping) -> dict[str, Any]:

@@ -121,8 +121,8 @@ def _warnings(sample: Sample, overlap: float, ultimate: Grading | None) -> list[
         if problem is not None:
             # n is not known yet: the paper's is near enough to tell.
             warnings.append(
-                f"the crushing model will have no curves, at the paper's n = {PAPER_EXPONENT:g}: "
-                f"{problem}"
+                f"the crushing model will have no curves at the paper's n = {PAPER_EXPONENT:g}, "
+                f"since {problem}"
             )
     return warnings
 

@@ -191,8 +191,11 @@ def test_bounds_beside_a_curve_are_refused(written):
     path = written(PLAIN)
     (message,) = problems_of(read_sieve_table, path, 8.0, None)
     assert "min = 8 must be below the largest size 8" in message
-    (message,) = problems_of(read_sieve_table, path, None, 0.01)
-    assert "max = 0.01 must be above the smallest size 0.063" in message
+    for largest in (0.01, 0.063):
+        (message,) = problems_of(read_sieve_table, path, None, largest)
+        assert f"max = {largest} must be above the smallest size 0.063" in message
+    (message,) = problems_of(read_density_table, written("1,1\n4,1\n"), 4.0, None)
+    assert "line 2: min = 4 must be below the largest size 4" in message
     # Below a curve that does not start at 0, a bound does not help.
     (message,) = problems_of(read_sieve_table, written("1,5\n4,100\n"), 0.5, None)
     assert "set min to 1 or more" in message

@@ -39,3 +39,12 @@ def test_contacts_and_walls_are_those_of_the_seed(files, seed):
 def test_branch_vectors_are_read_if_they_are_wanted(files):
     _, contacts, _ = read_contacts(files, 0, vectors=True)
     assert sorted(contacts) == sorted(CONTACT + VECTOR)
+
+
+def test_contacts_of_the_states_that_are_wanted_are_read_alone(files):
+    _, contacts, walls = read_contacts(files, 1, states=[2])
+    assert contacts["state"].tolist() == [2]
+    _, contacts, walls = read_contacts(files, 1, states=[1, 3])
+    assert contacts["state"].tolist() == []
+    # Contacts with walls are few: all are there.
+    assert walls["state"].tolist() == [2]

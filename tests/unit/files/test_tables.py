@@ -58,6 +58,16 @@ def test_columns_are_read_alone_when_they_are_named(tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
+def test_states_are_read_alone_and_in_their_order_when_they_are_named(tmp_path, name):
+    table = {"state": [2, 2, 4, 7, 7], "energy_J": [0.1, 0.2, 0.3, 0.4, 0.5]}
+    write_table(tmp_path / name, table, ORIGIN)
+    result = read_table(tmp_path / name, ("state", "energy_J"), [7, 2])
+    expected = {"state": [2, 2, 7, 7], "energy_J": [0.1, 0.2, 0.4, 0.5]}
+    assert_frame_equal(result, pd.DataFrame(expected), check_exact=True)
+    assert len(read_table(tmp_path / name, states=[5])) == 0
+
+
+@pytest.mark.parametrize("name", ["table.csv", "table.parquet"])
 def test_number_that_is_not_known_stays_so(tmp_path, name):
     write_table(tmp_path / name, {"inertial_number": [1.0, np.nan]}, ORIGIN)
     assert_array_equal(read_table(tmp_path / name)["inertial_number"], [1.0, np.nan])

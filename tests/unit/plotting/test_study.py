@@ -80,7 +80,7 @@ def test_one_state_is_a_point_with_its_interval_on_an_axis_of_some_width(shown, 
     assert_allclose(shown.points(ax.lines[0]), [[0.19], [2.0]])
     assert_allclose(shown.bars(ax.containers[0]), [[2.0 - half], [2.0 + 0.5 * half]])
     low, high = ax.get_xlim()
-    assert high - low >= 0.05 and low < 0.19 < high
+    assert high - low > 0.049 and low < 0.19 < high
 
 
 def test_one_state_whose_jamming_point_is_unknown_is_a_point_too(shown):

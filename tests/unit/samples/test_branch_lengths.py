@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 
 from branchcrush.branches.predictions import fine_edges, predictions
 from branchcrush.gradings.mixtures import from_radii
-from branchcrush.samples.branch_lengths import length_prediction_rows
+from branchcrush.samples.branch_lengths import branch_length_results, length_prediction_rows
 from branchcrush.samples.contact_numbers import contact_number_summary
 from branchcrush.samples.seed_contacts import sample_contacts
 from tests.unit.samples.drawn_contacts import (
@@ -127,3 +127,70 @@ def test_order_of_seeds_does_not_matter(growing, models):
 def test_the_same_contacts_give_the_same_rows_and_intervals(growing, models):
     _, kept, _ = growing
     assert rows_of(kept, models).equals(rows_of(kept, models))
+
+
+# --- the rule ------------------------------------------------------------------------------------
+
+TABLES = ("table", "predictions", "numbers", "pairs", "coordination")
+
+
+def rule_on(packings, states, *, end=True):
+    """Return what the rule makes of three seeds of which the second is not certified."""
+    path = path_of(states).assign(
+        leg="loading",
+        carries_load=True,
+        volume_m3=2.0,
+        void_ratio=0.5,
+        coordination_number=6.0,
+        mechanical_coordination_number=6.0,
+        rattler_fraction=0.0,
+    )
+    parts = [path.assign(seed=seed, certified=end and seed != 1) for seed in range(3)]
+    jamming = pd.DataFrame({"jamming_solid_fraction_loading": [0.60, 0.10, 0.62]})
+    read = []
+
+    def read_seed(number):
+        read.append(number)
+        return *packings[number], NO_WALLS
+
+    certificate = pd.concat(parts, ignore_index=True)
+    rule = branch_length_results(
+        GRADING, certificate, [path] * 3, jamming, read_seed, bins=19, **MEASURED
+    )
+    return *rule, read
+
+
+def test_rule_reads_the_certified_seeds_one_by_one_and_tells_of_each_state(growing):
+    packings, _, _ = growing
+    tables, results, read = rule_on(packings, STATES)
+    assert read == [0, 2]
+    assert list(tables) == list(TABLES)
+    # Branches of the last state, in bins of 2 from the smallest diameter to the largest.
+    assert tables["table"]["length_low_m"].tolist() == [2.0 * k for k in range(1, 20)]
+    lengths = [
+        radii[table["i"]] + radii[table["j"]]
+        for radii, contacts in (packings[0], packings[2])
+        for table in [contacts[contacts["state"] == STATES[-1]]]
+    ]
+    counts = np.histogram(np.concatenate(lengths), np.arange(2.0, 41.0, 2.0))[0]
+    assert tables["table"]["branches"].tolist() == counts.tolist()
+    assert {row["state"] for row in tables["predictions"]} == set(STATES)
+    # From the mean of the two points, and each packing from its own.
+    assert_allclose(tables["predictions"][0]["solid_fraction_above_jamming"], 0.65 - 0.61)
+    assert_allclose(
+        tables["coordination"]["solid_fraction_above_jamming"], [0.05, 0.09, 0.03, 0.07]
+    )
+    assert set(tables["numbers"]["state"]) == set(tables["pairs"]["state"]) == set(STATES)
+    statistics, summary = results["statistics"], results["contact_numbers"]
+    assert (statistics["grains"], statistics["branches"]) == (1000, 3000)
+    assert statistics["branch_density_per_m3"] == 3000 / 2.0
+    assert (summary["seeds"], summary["end"]["state"]) == (2, STATES[-1])
+
+
+def test_rule_without_a_certified_seed_says_why_and_reads_nothing(growing):
+    tables, results, read = rule_on(growing[0], STATES, end=False)
+    assert read == []
+    reason = results["statistics"]["reason"]
+    assert reason.startswith("no packing is certified at the end of its loading: 3 of 3 carry")
+    assert results == {key: {"reason": reason} for key in ("statistics", "contact_numbers")}
+    assert tables == {key: {"reason": [reason]} for key in TABLES}

@@ -11,6 +11,7 @@ from branchcrush.samples.branch_lengths import length_prediction_rows
 from branchcrush.samples.contact_numbers import (
     contact_number_rows,
     contact_number_summary,
+    coordination_table,
 )
 from branchcrush.samples.seed_contacts import seed_contacts
 from tests.unit.samples.drawn_contacts import (

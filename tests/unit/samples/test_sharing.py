@@ -9,59 +9,10 @@ import pytest
 from numpy.testing import assert_allclose
 from pandas.testing import assert_frame_equal
 
-from branchcrush.branches.contact_numbers import radius_classes
-from branchcrush.energy.shielding_grains import grain_shielding
-from branchcrush.forces.distribution import THRESHOLDS, force_tail, relative_forces
-from branchcrush.forces.fabric import fabric_result
-from branchcrush.forces.stress import stress_sharing
-from branchcrush.packings.network import Network
+from branchcrush.forces.distribution import THRESHOLDS
 from branchcrush.samples.sharing import TABLES, shared_in_state, states_together
 from branchcrush.statistics.bins import bin_edges
-
-OPTIONS = {"confidence": 0.95, "resamples": 100}
-# Few sizes: the mean of l^n over a bin is not the mean of l to the n.
-RADII = [0.02, 0.11, 0.5, 1.0]
-EDGES = bin_edges(0.02, 1.0)
-
-
-def sample(seed=1, seeds=4, radii=RADII, exponent=3.0, noise=True):
-    """Return networks of grains that touch at random, E = l^n times noise."""
-    rng, networks = np.random.default_rng(seed), []
-    for _ in range(seeds):
-        radius = rng.choice(radii, 120)
-        i = rng.integers(0, 120, 700)
-        j = (i + rng.integers(1, 120, 700)) % 120
-        length = radius[i] + radius[j]
-        energy = length**exponent * (rng.standard_exponential(700) if noise else 1.0)
-        overlap, wall = 0.01 * np.minimum(radius[i], radius[j]), rng.integers(0, 120, 30)
-        along = rng.standard_normal((700, 3))
-        networks.append(
-            Network(
-                radius,
-                i,
-                j,
-                overlap,
-                2.0 * energy / overlap,
-                energy,
-                wall,
-                0.01 * radius[wall],
-                radius[wall] ** 2,
-                along * (length / np.linalg.norm(along, axis=1))[:, None],
-            )
-        )
-    return networks
-
-
-def classes_of(networks):
-    radii, contacts = (
-        np.concatenate([getattr(one, name) for one in networks]) for name in ("radius", "contacts")
-    )
-    return radius_classes(radii, contacts)
-
-
-def shared(networks, edges=EDGES, exponent=1.0):
-    classes = classes_of(networks)
-    return shared_in_state(networks, edges, classes, exponent, **OPTIONS)
+from tests.unit.samples.random_networks import EDGES, OPTIONS, RADII, sample, shared
 
 
 def text(tables, summary):
@@ -99,21 +50,55 @@ def test_a_state_has_every_table_and_every_part_of_the_summary(found):
     json.dumps(summary)
 
 
-def test_numbers_are_those_of_the_parts(made, found):
-    networks, (tables, summary) = made, found
-    rng = np.random.default_rng(1)
-    forces = [network.force for network in networks]
-    rows, fabric = fabric_result([network.vector for network in networks], forces)
-    assert summary["fabric"] == fabric
-    assert tables["fabric"]["force_deviator"].tolist() == [row["force_deviator"] for row in rows]
+def test_every_part_is_told_of_the_networks_that_it_is_about():
+    # Branches along x with forces of 1 N and no overlap, E = l^3: each part has an answer by hand.
+    networks = [
+        replace(
+            network,
+            overlap=0.0 * network.overlap,
+            force=np.ones(network.force.size),
+            energy=network.length**3,
+            wall_overlap=0.0 * network.wall_overlap,
+            wall_force=0.0 * network.wall_force,
+            vector=network.length[:, None] * [1.0, 0.0, 0.0],
+        )
+        for network in sample(noise=False)
+    ]
+    tables, summary = shared(networks)
+    # Equal forces: none is below the mean.
+    assert summary["forces"]["share_below_mean"] == 0.0
+    assert_allclose(summary["forces"]["by_length"]["exponent"], 0.0, atol=1e-9)
+    # In bins of branch length, not in classes of radius.
+    assert tables["force_by_length"]["branch_length_low_m"].tolist() == EDGES[:-1].tolist()
+    assert tables["force_by_length"]["branch_length_high_m"].tolist() == EDGES[1:].tolist()
+    # All parallel: a deviator of 1, of the branches and of the forces.
     assert tables["fabric"]["seed_number"].tolist() == [0, 1, 2, 3]
-    _, stress = stress_sharing(networks, rng=rng)
-    assert summary["stress"]["sharing_index"] == stress["sharing_index"]
-    _, grains = grain_shielding(networks, 1.0, rng=rng)
-    assert summary["shielding"]["grains"]["energy_per_grain"] == grains["energy_per_grain"]
-    for tail in summary["forces"]["tails"]:
-        expected = force_tail([relative_forces(f) for f in forces], tail["threshold"], rng=rng)
-        assert tail["decay_rate"] == expected["decay_rate"]
+    assert_allclose(tables["fabric"][["deviator", "force_deviator"]], 1.0)
+    assert_allclose(tables["fabric"]["expected_deviator"], 700**-0.5)
+    # p_g V_g = R_g z_g/3: over the volume, in the class of each of the four radii.
+    radius, contacts = (
+        np.concatenate([getattr(one, name) for one in networks]) for name in ("radius", "contacts")
+    )
+    stress = radius * contacts / (4.0 * np.pi)
+    mean = stress.sum() / (radius**3 / 3.0).sum()
+    expected = [
+        stress[radius == r].sum() / (radius[radius == r] ** 3 / 3.0).sum() / mean for r in RADII
+    ]
+    assert_allclose(tables["stress_by_radius"]["stress_ratio"], expected, rtol=1e-9)
+    branches = summary["shielding"]["branches"]
+    assert_allclose(branches["length_exponent"], 3.0, atol=1e-7)
+    # Energy of each grain: half of what its branches hold, in every seed alike.
+    held = np.concatenate(
+        [
+            np.bincount(one.i, one.length**3 / 2.0, 120)
+            + np.bincount(one.j, one.length**3 / 2.0, 120)
+            for one in networks
+        ]
+    )
+    grains = tables["shielding_grains"]
+    everyone = grains[grains["grains_counted"] == "all"]
+    told = everyone["energy_per_grain"] * everyone["grains"]
+    assert_allclose(np.nansum(told) * held.mean(), held.sum(), rtol=1e-9)
 
 
 def test_stress_is_told_in_the_classes_that_were_given():

@@ -8,8 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.gradings.forms import uniform
 from branchcrush.samples.certificate import LIMITS, state_certificates
-from branchcrush.samples.verdict import sample_certificate
+from branchcrush.samples.verdict import sample_certificate, verdict_results
 from branchcrush.statistics.intervals import Interval
 from tests.unit.samples.sound_paths import path_of
 
@@ -225,3 +226,73 @@ def test_reason_names_the_width_of_the_interval():
 @pytest.mark.parametrize("fit", [EnergySplitFit.without("one length"), fit_of(3.0, np.nan, np.nan)])
 def test_without_an_exponent_or_an_interval_there_is_no_width(fit):
     assert certificate_of([path_of()], fit=fit)["verdict"] == "certified"
+
+
+# --- the rule ------------------------------------------------------------------------------------
+
+GRADING = uniform(5e-6, 1e-3)
+
+
+def energies_of(exponent, state):
+    """Return the energies of branches of twenty lengths that follow l^n exactly."""
+    length = np.linspace(1e-4, 1.9e-3, 20)
+    table = {"state": state, "radius_i_m": length / 2, "radius_j_m": length / 2}
+    before = pd.DataFrame({**table, "state": state - 1, "energy_J": length})
+    return pd.concat([before, pd.DataFrame({**table, "energy_J": length**exponent})])
+
+
+def rule_on(refined, exponents=((3.0, 3.0), (3.0, 3.0))):
+    """Return what the rule makes of two seeds, both run again or none."""
+    paths = [path_of().assign(**WHOLE) for _ in range(2)]
+    again = paths if refined else []
+    jamming = {
+        "seed": [1, 2],
+        "jamming_solid_fraction_loading": 0.61,
+        "jamming_solid_fraction_unloading": np.nan,
+        "uncertainty_loading": 1e-4,
+        "loaded_from_the_start": False,
+    }
+    states = state_certificates([1, 2], paths)
+    return verdict_results(
+        GRADING,
+        states,
+        pd.DataFrame(jamming),
+        paths,
+        refined_states=[states] if refined else [],
+        once=(again, lambda number, state: energies_of(exponents[0][number], state)),
+        twice=(again, lambda number, state: energies_of(exponents[1][number], state)),
+        report={"representativity": {"warnings": []}},
+        fit=fit_of(),
+        bins=20,
+    )
+
+
+WHOLE = {
+    "elastic_energy_J": 1.0,
+    "coordination_number": 6.0,
+    "mechanical_coordination_number": 6.0,
+}
+
+
+def test_rule_compares_both_runs_at_the_end_of_the_loading():
+    convergence, certificate = rule_on(True)
+    assert (certificate["verdict"], certificate["reasons"]) == ("certified", [])
+    exponent = convergence.set_index("quantity").loc["exponent"]
+    assert_allclose([exponent["value"], exponent["value_at_twice_the_steps"]], 3.0, atol=1e-2)
+    assert certificate["unloading"] is None
+    assert list(certificate)[-1] == "unloading"
+
+
+def test_rule_withholds_the_certificate_where_the_exponent_changes():
+    convergence, certificate = rule_on(True, ((2.8, 2.8), (3.0, 3.0)))
+    difference = convergence.set_index("quantity").loc["exponent", "difference"]
+    assert_allclose(difference, 0.2, atol=1e-2)
+    assert certificate["verdict"] == "not certified"
+    assert certificate["reasons"][0].startswith("not converged: exponent changes from 2.")
+
+
+def test_rule_without_a_second_run_flags_the_sample():
+    convergence, certificate = rule_on(False)
+    assert len(convergence) == 0
+    assert certificate["verdict"] == "flagged"
+    assert certificate["flags"][0].startswith("convergence not checked")

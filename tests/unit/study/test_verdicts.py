@@ -79,7 +79,6 @@ def test_best_predictor_is_that_of_the_end():
     answers = verdicts([row])
     assert answers["best_both_radii"] == ["one"]
     assert answers["best_grain_size"] == answers["best_branch_length"] == []
-    assert "best_surface" not in answers
 
 
 def test_claims_are_told_by_reading(sample):
