@@ -4,7 +4,7 @@ from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
-from branchcrush.plotting import sample_figures as figures
+from branchcrush.plotting import fit_figures as figures
 
 with job(snakemake.log[0]):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi

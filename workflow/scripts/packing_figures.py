@@ -6,7 +6,7 @@ from branchcrush.config.build import grading_of
 from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.jobs import job
 from branchcrush.lammps.files import read_dump
-from branchcrush.plotting import sample_figures as figures
+from branchcrush.plotting import packing_figures as figures
 from branchcrush.samples.ensemble import end_of_loading, stacked
 
 with job(snakemake.log[0]):

@@ -11,7 +11,7 @@ from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.jobs import job
 from branchcrush.lammps.compression import trial
 from branchcrush.lammps.run import declared_variables
-from branchcrush.plotting.sample_figures import draw_grading
+from branchcrush.plotting.packing_figures import draw_grading
 from branchcrush.study.preview import preview_text, sample_plan
 
 with job(snakemake.log[0]):

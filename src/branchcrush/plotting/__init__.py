@@ -1,6 +1,6 @@
 """Figures: from result files to pictures, each alone or all by the workflow.
 
-`sample_figures`
+`packing_figures`, `fit_figures`, `network_figures`
     One function a figure of a sample, as `draw_energy_split(path, dpi, table, fit)`: it takes what
     `files.tables.read_table` and `read_json` read, writes one PNG file and returns the Figure.
 `study_figures`
@@ -10,8 +10,9 @@
     carries what is in `shielding` and `forces`.
 `study`, `study_networks`
     The panels of all samples.
-`style`
-    How every figure looks: `figure`, `STATES`, colours and sizes.
+`style`, `intervals`
+    How every figure looks: `figure`, `STATES`, colours and sizes; how an estimate with its interval
+    is drawn.
 
 A new panel is a function `plot_...` of the module of its subject, and a line in a function
 `draw_...`. A new figure is a function `draw_...`, its name in `workflow/rules/report.smk`, a line

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 
 from branchcrush.branches.predictions import PREDICTIONS
 from branchcrush.files.tables import Table
+from branchcrush.plotting.intervals import draw_band
 from branchcrush.plotting.style import (
     FAINT,
     MEASURED,
@@ -15,7 +16,6 @@ from branchcrush.plotting.style import (
     STATES,
     above_jamming,
     axes,
-    draw_band,
     reason,
     widen,
 )

@@ -6,7 +6,8 @@ from matplotlib.axes import Axes
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes, draw_band, widen
+from branchcrush.plotting.intervals import draw_band
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes, widen
 from branchcrush.statistics.intervals import interval_text
 
 # Bins with fewer branches are marked with their count.

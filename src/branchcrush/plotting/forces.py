@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
 from branchcrush.forces.fabric import chance_range
-from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, draw_points, of_states
+from branchcrush.plotting.intervals import draw_points
+from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}

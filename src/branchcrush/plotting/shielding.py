@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, draw_points, of_states
+from branchcrush.plotting.intervals import draw_points
+from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 

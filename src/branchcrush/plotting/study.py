@@ -12,7 +12,8 @@ from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
-from branchcrush.plotting.style import FAINT, axes, draw_band, widen
+from branchcrush.plotting.intervals import draw_band
+from branchcrush.plotting.style import FAINT, axes, widen
 from branchcrush.study.kinds import SampleKind
 from branchcrush.study.verdicts import GOOD_DISTANCE
 

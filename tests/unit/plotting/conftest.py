@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib import image
 from matplotlib import pyplot as plt
 
 
@@ -37,6 +38,37 @@ class Reading:
 @pytest.fixture
 def shown():
     return Reading()
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    """Return a function that draws a figure and returns its Axes, having looked at the file."""
+
+    def draw(function, *data):
+        path = tmp_path / "folder" / "figure.png"
+        figure = function(path, 50, *data)
+        assert (image.imread(path)[..., :3].min(axis=-1) < 0.9).any()
+        return figure.axes
+
+    return draw
+
+
+@pytest.fixture
+def given(monkeypatch):
+    """Return a function that stands in for plots, and what each of them was given."""
+    calls = {}
+
+    def record(module, *names):
+        for name in names:
+
+            def plot(*data, ax, name=name):
+                calls[name] = data
+                return ax
+
+            monkeypatch.setattr(module, name, plot)
+        return calls
+
+    return record
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib import image
 from numpy.testing import assert_allclose
 
 from branchcrush.plotting import study_figures
@@ -18,19 +17,6 @@ STYLES = sample_styles(
     }
 )
 NOTHING = pd.DataFrame({"reason": ["no load"]})
-
-
-@pytest.fixture
-def drawn(tmp_path):
-    """Return a function that draws a figure and returns its Axes, having looked at the file."""
-
-    def draw(function, *data):
-        path = tmp_path / "figure.png"
-        figure = function(path, 50, *data)
-        assert (image.imread(path)[..., :3].min(axis=-1) < 0.9).any()
-        return figure.axes
-
-    return draw
 
 
 def texts(axes):

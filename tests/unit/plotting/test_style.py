@@ -1,10 +1,8 @@
 """How every figure looks: its size, its bytes, and numbers as they are."""
 
-import numpy as np
 import pandas as pd
 import pytest
 from matplotlib import image
-from numpy.testing import assert_allclose
 
 from branchcrush.plotting import style
 
@@ -34,23 +32,6 @@ def test_axes_are_widened_to_a_least_width_and_no_more(x, limits):
     ax = style.axes()
     ax.plot(x, [1.0, 2.0])
     assert style.widen(ax).get_xlim() == pytest.approx(limits)
-
-
-def rows(low=(0.5, -1.0)):
-    return pd.DataFrame({"y": [1.0, 2.0], "y_low": low, "y_high": [1.25, 4.0]})
-
-
-def test_points_have_their_own_ends_down_and_up_and_end_at_the_floor(shown):
-    ax = style.axes()
-    style.draw_points(ax, [0.0, 1.0], rows(), "y", "black", "a", floor=0.25)
-    assert_allclose(shown.bars(ax.containers[0]), [[0.5, 0.25], [1.25, 4.0]])
-    assert_allclose(shown.points(ax.containers[0][0]), [[0, 1], [1, 2]])
-
-
-def test_points_without_limits_have_no_bars():
-    ax = style.axes()
-    style.draw_points(ax, [0.0, 1.0], rows((np.nan, np.nan)), "y", "black", "a")
-    assert not ax.containers[0].has_yerr
 
 
 def test_states_come_in_their_order_and_only_those_there_are():

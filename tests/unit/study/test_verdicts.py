@@ -20,6 +20,8 @@ def row_of(results):
         ((2.5, 2.4, 2.6), "below"),
         ((3.5, 3.4, 3.6), "above"),
         ((3.0, 3.0, 3.5), "holds"),
+        ((2.9, 2.7, 3.1), "holds"),
+        ((3.1, 2.9, 3.3), "holds"),
         # Wider than n itself, on whatever side.
         ((3.0, 1.4, 4.6), "too_wide"),
         ((1.0, 0.3, 1.7), "too_wide"),
