@@ -105,7 +105,8 @@ class Interval(NamedTuple):
         >>> Interval(3.0, 1.4, 4.6).is_wide, Interval(3.0, 1.6, 4.4).is_wide
         (True, False)
         """
-        return bool(self.high - self.low > abs(self.estimate))
+        width = np.subtract(self.high, self.low)
+        return bool(width > np.abs(self.estimate))
 
     @classmethod
     def read(cls, result: Mapping[str, Any], name: str) -> "Interval":
