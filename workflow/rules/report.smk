@@ -118,16 +118,16 @@ rule comparison:
 
 rule report:
     input:
+        **{
+            name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
+            for name in FIGURES
+        },
         template=f"{workflow.basedir}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
-        **{
-            name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
-            for name in FIGURES
-        },
         code=code("report"),
     output:
         "results/report.html",
