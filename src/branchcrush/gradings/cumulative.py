@@ -83,7 +83,7 @@ class CumulativeCurves:
     def mass_cdf(self, radius: ArrayLike) -> NDArray:
         r"""Return the share of the mass in grains up to each radius: the sieve curve over 100 %.
 
-        .. math:: F(R) = \int_{R_m}^R R'^3 n(R')\, dR' \Big/ \langle R^3 \rangle
+        .. math:: F(R) = \frac{1}{\langle R^3 \rangle} \int_{R_m}^R R'^3 n(R')\, dR'
 
         Parameters
         ----------

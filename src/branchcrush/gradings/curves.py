@@ -108,7 +108,7 @@ def ultimate_grading(grading: Grading, alpha: float) -> Grading | None:
 def realised_percent_finer(radii: ArrayLike, radius: ArrayLike) -> tuple[NDArray, NDArray]:
     r"""Return the percent of the mass, and of the number, of a packing's grains up to a radius.
 
-    .. math:: 100 \sum_{R_i \le r} R_i^3 \Big/ \sum_i R_i^3, \qquad
+    .. math:: 100\, \frac{\sum_{R_i \le r} R_i^3}{\sum_i R_i^3}, \qquad
         \frac{100}{N} \sum_{R_i \le r} 1
 
     Parameters

@@ -220,7 +220,7 @@ def parameter_intervals(
     r"""Return the parameters with their intervals from resampling seeds.
 
     .. math:: \theta^* = \hat\theta + (\ln\rho, 0, \ldots)
-        + \Big(\sum_s w_s A_s(\rho)\Big)^{-1} \sum_s w_s g_s(\rho), \qquad
+        + \Bigl(\sum_s w_s A_s(\rho)\Bigr)^{-1} \sum_s w_s g_s(\rho), \qquad
         \rho = \frac{\sum_s w_s \sum_b E_b e^{-\eta_b}}{\sum_s w_s M_s}
 
     w_s says how often seed s is drawn. The scale of the draw comes first, exactly: seeds may

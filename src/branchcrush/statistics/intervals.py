@@ -215,7 +215,7 @@ def pooled_interval(
 ) -> Interval:
     r"""Return a statistic of sums over all seeds, with its interval from resampling seeds.
 
-    .. math:: \hat\theta = T\Big(\sum_s x_s\Big)
+    .. math:: \hat\theta = T\Bigl(\sum_s x_s\Bigr)
 
     A mean is a ratio of sums, so are the mean energies of bins, and what is fitted to them.
 
