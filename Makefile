@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality findings bench publish test lint lock clean own-environment
+.PHONY: help run preview example gallery quality findings bench publish test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -80,7 +80,7 @@ publish: run ## the figures and tables that README and docs show, from this run
 	  $(SHRINK) results/figures/paper/$$figure.png docs/figures/$$figure.png; done
 	$(MADE) > docs/results/made.txt
 
-test: lint ## the linters, then every test
+test: lint docs ## the linters, the site, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile
 
 lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, types
@@ -90,6 +90,13 @@ lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, 
 	$(IN_ENVIRONMENT) snakemake --lint
 	$(BIN)/lint-imports --no-logo
 	$(BIN)/mypy
+
+# What was read is kept for the next time, but not with warnings, which would not be repeated.
+docs: $(DEVELOP) ## the site of all pages and docstrings: build/docs/index.html
+	$(BIN)/python docs/pages.py build/docs-source
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --nitpicky --jobs $(CORES) \
+	  -c docs --doctree-dir build/docs-read build/docs-source build/docs \
+	  || { rm -r build/docs-read; exit 1; }
 
 # uv installs in a quarter of pip's time but does not read pip's settings, so where the index is a
 # mirror named only to pip, pip installs. Without build isolation a package that comes as source is

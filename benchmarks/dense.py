@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from branchcrush.errors import SimulationError
-from branchcrush.gradings import curves as gradings
+from branchcrush.gradings import forms, mixtures
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress
 from branchcrush.lammps.files import read_dump, write_data_file
@@ -27,12 +27,12 @@ LARGEST = 1.0e-3
 # Loose packings begin here and carry load from somewhere above the approach.
 LOOSE, APPROACH = 0.3, 0.55
 FORMS = {
-    "single": lambda: gradings.single(LARGEST),
-    "uniform": lambda: gradings.uniform(LARGEST / 200, LARGEST),
-    "normal": lambda: gradings.normal(5e-4, 1.5e-4, 1e-4, LARGEST),
-    "lognormal": lambda: gradings.lognormal(5e-4, 1.4, 2e-4, 1.2e-3),
-    "bidisperse": lambda: gradings.mixture(
-        [gradings.single(LARGEST / 10), gradings.single(LARGEST)], [1.0, 1.0], "mass"
+    "single": lambda: mixtures.single(LARGEST),
+    "uniform": lambda: forms.uniform(LARGEST / 200, LARGEST),
+    "normal": lambda: forms.normal(5e-4, 1.5e-4, 1e-4, LARGEST),
+    "lognormal": lambda: forms.lognormal(5e-4, 1.4, 2e-4, 1.2e-3),
+    "bidisperse": lambda: mixtures.mixture(
+        [mixtures.single(LARGEST / 10), mixtures.single(LARGEST)], [1.0, 1.0], "mass"
     ),
 }
 # Three strain steps as `in.compress` takes them, with as many force evaluations whatever the
@@ -64,8 +64,8 @@ def form_of(name):
         return FORMS[kind]()
     smallest = LARGEST / float(ratio[0])
     if kind == "fractal":
-        return gradings.fractal(smallest, LARGEST, 2.5)
-    return gradings.loguniform(smallest, LARGEST)
+        return forms.fractal(smallest, LARGEST, 2.5)
+    return forms.loguniform(smallest, LARGEST)
 
 
 def packing_variables(radii, edge, boundary, **others):

@@ -80,7 +80,7 @@ def test_a_run_does_not_touch_the_lock_of_the_tests(make, target):
     assert DEV not in planned
 
 
-@pytest.mark.parametrize("target", ["test", "lint"])
+@pytest.mark.parametrize("target", ["test", "lint", "docs"])
 def test_tests_and_linters_add_to_what_a_run_has(make, target):
     planned = make("--dry-run", target).stdout
     assert planned.index(RUN) < planned.index(DEV)

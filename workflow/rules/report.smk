@@ -11,6 +11,18 @@ FIT_FIGURES = [
     "crushing_model",
 ]
 NETWORK_FIGURES = ["who_touches_whom", "sharing"]
+NETWORK_TABLES = [
+    "contact_numbers",
+    "contact_pairs",
+    "length_predictions",
+    "shielding_branches",
+    "shielding_grains",
+    "force_distribution",
+    "force_by_length",
+    "fabric",
+    "stress_by_radius",
+    "stress_sharing",
+]
 FIGURES = PACKING_FIGURES + FIT_FIGURES + NETWORK_FIGURES
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
@@ -67,18 +79,9 @@ rule fit_figures:
 
 rule network_figures:
     input:
-        contact_numbers="results/{sample}/contact_numbers.csv",
-        contact_pairs="results/{sample}/contact_pairs.csv",
-        predictions="results/{sample}/length_predictions.csv",
+        **{name: f"results/{{sample}}/{name}.csv" for name in NETWORK_TABLES},
         numbers="results/{sample}/contact_numbers.json",
         shared="results/{sample}/sharing.json",
-        shielding_branches="results/{sample}/shielding_branches.csv",
-        shielding_grains="results/{sample}/shielding_grains.csv",
-        force_distribution="results/{sample}/force_distribution.csv",
-        force_by_length="results/{sample}/force_by_length.csv",
-        fabric="results/{sample}/fabric.csv",
-        stress_by_radius="results/{sample}/stress_by_radius.csv",
-        stress_sharing="results/{sample}/stress_sharing.csv",
         data=data_files,
         code=code("network_figures"),
     output:
@@ -89,6 +92,7 @@ rule network_figures:
         "../envs/branchcrush.yaml"
     params:
         sample=section("grading"),
+        tables=NETWORK_TABLES,
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/network_figures.py"
@@ -107,20 +111,23 @@ rule comparison:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        samples=list(SAMPLES),
+        samples=SAMPLES,
     script:
         "../scripts/comparison.py"
 
 
 rule report:
     input:
+        **{
+            name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
+            for name in FIGURES
+        },
         template=f"{workflow.basedir}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
-        figures=expand("results/figures/{sample}/{figure}.png", sample=SAMPLES, figure=FIGURES),
         code=code("report"),
     output:
         "results/report.html",
@@ -130,6 +137,7 @@ rule report:
         "../envs/branchcrush.yaml"
     params:
         samples=SAMPLES,
+        figures=FIGURES,
     script:
         "../scripts/report.py"
 

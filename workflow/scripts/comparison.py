@@ -1,13 +1,16 @@
 """Put the samples beside each other, a row each."""
 
-from branchcrush.files.tables import provenance, read_json, write_table
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.files.tables import read_json, study_provenance, write_table
 from branchcrush.jobs import job
 from branchcrush.study.comparison import comparison_row
 
 with job(snakemake.log[0]):
-    kinds = (snakemake.input.fits, snakemake.input.summaries, snakemake.input.certificates)
+    files, samples = snakemake.input, snakemake.params.samples
     rows = [
-        comparison_row(name, *(read_json(path) for path in files))
-        for name, *files in zip(snakemake.params.samples, *kinds, strict=True)
+        comparison_row(name, EnergySplitFit.read(read_json(fit)), *map(read_json, others))
+        for name, fit, *others in zip(
+            samples, files.fits, files.summaries, files.certificates, strict=True
+        )
     ]
-    write_table(snakemake.output[0], rows, provenance(samples=snakemake.params.samples))
+    write_table(snakemake.output[0], rows, study_provenance(samples))

@@ -1,33 +1,27 @@
 """Put the findings of all samples beside each other, a row each, and all their states."""
 
-import pandas as pd
-
-from branchcrush.files.tables import provenance, read_json, read_table, write_table
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.files.tables import (
+    read_json,
+    read_table,
+    stacked_tables,
+    study_provenance,
+    write_table,
+)
 from branchcrush.jobs import job
-from branchcrush.study.exponents import common_distance
-from branchcrush.study.findings import finding_row
+from branchcrush.study.findings import finding_rows
 from branchcrush.study.kinds import SampleKind
+from branchcrush.study.results import SampleResults
 
 with job(snakemake.log[0]):
-    files, samples = snakemake.input, snakemake.params.samples
-    intervals = snakemake.params.intervals
-    paths = [read_table(path) for path in files.paths]
-    distance = common_distance([path for path in paths if "reason" not in path])
-    states = [read_table(path) for path in files.states]
-    rows = [
-        finding_row(
-            name, SampleKind.of(sample), *map(read_json, results), path, table, distance, intervals
-        )
-        for (name, sample), *results, path, table in zip(
-            samples.items(), files.fits, files.numbers, files.shared, paths, states, strict=True
-        )
-    ]
-
-    def together(tables):
-        named = [t.assign(sample=name) for name, t in zip(samples, tables, strict=True)]
-        return pd.concat(named, ignore_index=True)
-
-    origin = provenance(samples=list(samples))
-    write_table(snakemake.output.rows, rows, origin)
-    write_table(snakemake.output.exponents, together(paths), origin)
-    write_table(snakemake.output.states, together(states), origin)
+    files, output, params = snakemake.input, snakemake.output, snakemake.params
+    fits = [EnergySplitFit.read(read_json(path)) for path in files.fits]
+    numbers, shared = ([read_json(path) for path in files[k]] for k in ("numbers", "shared"))
+    paths, states = ([read_table(path) for path in files[k]] for k in ("paths", "states"))
+    kinds = map(SampleKind.of, params.samples.values())
+    results = zip(params.samples, kinds, fits, numbers, shared, paths, states, strict=True)
+    rows = finding_rows([SampleResults(*each) for each in results], **params.intervals)
+    origin = study_provenance(params.samples, **params.intervals)
+    write_table(output.rows, rows, origin)
+    for path, tables in ((output.exponents, paths), (output.states, states)):
+        write_table(path, stacked_tables(dict(zip(params.samples, tables, strict=True))), origin)

@@ -2,28 +2,28 @@
 
 from pathlib import Path
 
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, write_text
 from branchcrush.jobs import job
-from branchcrush.study.pages import render_report
+from branchcrush.study.pages import SamplePage, render_report
 
 with job(snakemake.log[0]):
-    samples, files = snakemake.params.samples, snakemake.input
-
-    def of(name, paths):
-        return [path for path in paths if name in Path(path).parts]
-
+    files, params = snakemake.input, snakemake.params
+    # Files of every kind are in the order of the samples.
+    names = ("fits", "summaries", "statistics", "certificates", "gradings")
+    results = zip(*(map(read_json, files[name]) for name in names), strict=True)
+    drawn = zip(*(files[name] for name in params.figures), strict=True)
     pages = [
-        {
-            "name": name,
-            "settings": settings,
-            "fit": read_json(of(name, files.fits)[0]),
-            "model": read_json(of(name, files.summaries)[0]),
-            "statistics": read_json(of(name, files.statistics)[0]),
-            "certificate": read_json(of(name, files.certificates)[0]),
-            "grading": read_json(of(name, files.gradings)[0]),
-            "figures": {Path(path).stem: path for path in of(name, files.figures)},
-        }
-        for name, settings in samples.items()
+        SamplePage(
+            name,
+            settings,
+            EnergySplitFit.read(fit),
+            *others,
+            figures=dict(zip(params.figures, figures, strict=True)),
+        )
+        for (name, settings), (fit, *others), figures in zip(
+            params.samples.items(), results, drawn, strict=True
+        )
     ]
-    html = render_report(Path(files.template).read_text(encoding="utf-8"), pages)
-    write_text(snakemake.output[0], html)
+    template = Path(files.template).read_text(encoding="utf-8")
+    write_text(snakemake.output[0], render_report(template, pages))

@@ -117,7 +117,7 @@ def assortativity(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> Interval:
     r"""Return how alike the two radii of a contact are: their correlation over contacts.
 
@@ -138,6 +138,14 @@ def assortativity(
     -------
     Interval
         Arrays of two: of the radii, and of their logarithms; nan where all radii are equal.
+
+    Examples
+    --------
+    >>> unused = 5 * (np.zeros(2),)
+    >>> ends = [4.0, 6.0, 10.0, 10.0]  # two contacts: 1 touches 1, 2 touches 2
+    >>> seed = ContactSums(*unused, pairs=np.zeros((2, 2)), moments=np.array([ends, ends]))
+    >>> assortativity([seed], rng=None).estimate.tolist()
+    [1.0, 1.0]
 
     References
     ----------
@@ -166,7 +174,7 @@ def contact_number_table(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, NDArray]:
     r"""Return the contact number by radius, with and without rattlers, with intervals.
 
@@ -186,6 +194,14 @@ def contact_number_table(
     dict of ndarray, shape (K,)
         radius_low_m, radius_high_m, mean_radius_m, grains; contact_number,
         load_bearing_contact_number and rattler_fraction, each with _low and _high.
+
+    Examples
+    --------
+    >>> sums = (np.array([4]), np.array([4.0]), np.array([12]), np.array([2]), np.array([11]))
+    >>> seed = ContactSums(*sums, pairs=np.array([[12]]), moments=np.zeros((2, 4)))
+    >>> table = contact_number_table([seed], [1.0, 1.0], rng=None)
+    >>> [table[name].tolist() for name in ("contact_number", "load_bearing_contact_number")]
+    [[3.0], [5.5]]
     """
     names = ("contact_number", "load_bearing_contact_number", "rattler_fraction")
 
@@ -232,6 +248,13 @@ def pair_table(sums: Sequence[ContactSums], edges: ArrayLike) -> dict[str, NDArr
     dict of ndarray, shape (K^2,)
         radius_i_low_m, radius_i_high_m, radius_j_low_m, radius_j_high_m, contacts (in both
         orders), expected_contacts, ratio (nan where nothing is expected).
+
+    Examples
+    --------
+    >>> unused = 5 * (np.zeros(2),)
+    >>> seed = ContactSums(*unused, pairs=np.array([[6, 2], [2, 6]]), moments=np.zeros((2, 4)))
+    >>> pair_table([seed], [1.0, 2.0, 3.0])["ratio"].tolist()
+    [1.5, 0.5, 0.5, 1.5]
     """
     pairs = np.sum([seed.pairs for seed in sums], axis=0).astype(float)
     of_class = pairs.sum(axis=1)

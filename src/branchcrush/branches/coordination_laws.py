@@ -158,7 +158,7 @@ def jamming_law_fit(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, float]:
     r"""Return the jamming law of some packings with the exponent 1/2, and with a free one.
 
@@ -203,7 +203,7 @@ def jamming_law_fit(
         **limits.part(0).named("prefactor"),
         **limits.part(1).named("exponent"),
         # Without limits: it is the law's value at phi - phi_J = 1, far from all states.
-        "free_prefactor": float(limits.estimate[2]),
+        "free_prefactor": float(limits.part(2).estimate),
     }
 
 

@@ -155,6 +155,13 @@ def binned_predictions(models: Mapping[str, Prediction], edges: ArrayLike) -> di
     -------
     dict of ndarray, shape (n,)
         [-]; without Eq. 4, which has no contact numbers.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.mixtures import single
+    >>> edges = np.array([1.0, 2.0, 3.0])
+    >>> binned_predictions(predictions(single(1.2), edges), edges)["parking"].tolist()
+    [0.0, 1.0]
     """
     return {
         name: pair_shares(model.radius, model.share * model.contacts, edges)

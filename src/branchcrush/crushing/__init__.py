@@ -5,8 +5,9 @@
     `PowerLawElasticity` is one, and `fit_elasticity` takes it from a measured loading path.
 `model`
     `theta` says which share of the elastic energy complete crushing releases, from the moments of
-    the branch lengths; `admissibility_problem` says why there is none. `CrushingLaw` has the free
-    energy, the driving force and the resistance for a given parameter C.
+    the branch lengths; `admissibility_problem` says why there is none.
+`law`
+    `CrushingLaw` has the free energy, the driving force and the resistance for a parameter C.
 `path`
     `crushing_path` follows C, stress and energies along any strain path, `CrushingPath`.
 

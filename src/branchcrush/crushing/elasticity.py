@@ -68,16 +68,49 @@ class PowerLawElasticity:
             raise ValueError(f"modulus and exponent must be positive and finite: {self}")
 
     def pressure(self, strain: ArrayLike) -> NDArray:
-        """Return the pressure p_0 [Pa] at a strain of any shape [-]."""
+        """Return the pressure at a strain.
+
+        Parameters
+        ----------
+        strain : array_like
+            eps, any shape [-].
+
+        Returns
+        -------
+        ndarray
+            p_0 [Pa]; 0 up to the onset.
+        """
         return self.modulus * np.maximum(np.subtract(strain, self.onset_strain), 0) ** self.exponent
 
     def energy(self, strain: ArrayLike) -> NDArray:
-        """Return the energy Psi_0 [J/m3] at a strain of any shape [-]."""
+        """Return the elastic energy at a strain.
+
+        Parameters
+        ----------
+        strain : array_like
+            eps, any shape [-].
+
+        Returns
+        -------
+        ndarray
+            Psi_0 [J/m3]; 0 up to the onset.
+        """
         beyond = np.maximum(np.subtract(strain, self.onset_strain), 0)
         return self.modulus * beyond ** (self.exponent + 1) / (self.exponent + 1)
 
     def strain_at_energy(self, energy: ArrayLike) -> NDArray:
-        """Return the strain [-] at which an energy of any shape [J/m3] is stored."""
+        """Return the strain at which an energy is stored.
+
+        Parameters
+        ----------
+        energy : array_like
+            Psi_0, any shape [J/m3].
+
+        Returns
+        -------
+        ndarray
+            eps [-]; the onset at zero energy.
+        """
         beyond = np.multiply(energy, (self.exponent + 1) / self.modulus)
         return self.onset_strain + beyond ** (1 / (self.exponent + 1))
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.crushing.elasticity import Elasticity
-from branchcrush.crushing.model import CrushingLaw
+from branchcrush.crushing.law import CrushingLaw
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 

@@ -63,7 +63,17 @@ class EndState:
 
     @classmethod
     def read(cls, result: Mapping[str, Any]) -> "EndState":
-        """Return the packings of which a file holds this."""
+        """Return the packings of which a file holds this.
+
+        Parameters
+        ----------
+        result : mapping
+            As `result` returns it, null where it has nan.
+
+        Returns
+        -------
+        EndState
+        """
         numbers = {field: number_or_nan(result[name]) for field, name in _END_NAMES.items()}
         return cls(seeds=result["seeds"], branches=result["branches"], **numbers)
 
@@ -121,7 +131,17 @@ class EnergySplitFit:
 
     @classmethod
     def without(cls, reason: str, packings: EndState | None = None) -> "EnergySplitFit":
-        """Return that there is no energy split, why, and what is known of the packings."""
+        """Return that there is no energy split, why, and what is known of the packings.
+
+        Parameters
+        ----------
+        reason : str
+        packings : EndState, optional
+
+        Returns
+        -------
+        EnergySplitFit
+        """
         nothing = StateFit((), Curvature.without(reason))
         return cls(
             exponent=UNKNOWN,
@@ -159,7 +179,17 @@ class EnergySplitFit:
 
     @classmethod
     def read(cls, result: Mapping[str, Any]) -> "EnergySplitFit":
-        """Return the fit of which a file holds this; other keys, as provenance, are ignored."""
+        """Return the fit of which a file holds this.
+
+        Parameters
+        ----------
+        result : mapping
+            As `result` returns it, null where it has nan; other keys, as provenance, are ignored.
+
+        Returns
+        -------
+        EnergySplitFit
+        """
         packings = EndState.read(result) if "seeds" in result else None
         if "reason" in result:
             return cls.without(result["reason"], packings)

@@ -21,7 +21,7 @@ def grain_energy_exponents(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, float]:
     r"""Return the exponent of the energy of a grain in its radius.
 

@@ -175,7 +175,7 @@ def compared_predictors(
     >>> fitted.name, round(fitted.exponent, 9), round(fitted.explained.estimate, 9)
     ('branch_length', 3.0, 1.0)
     """
-    options = {"confidence": confidence, "resamples": resamples}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples}
     nothing, _ = _judged(seeds, _CONSTANT)
     by_length: NDArray | None = None
     fitted: list[FittedPredictor] = []
@@ -202,7 +202,9 @@ def compared_predictors(
                 if by_length is None
                 else _gained(by_length, left_out, nothing, options),
                 # The one that the energy split is about; its exponent beside that of the bins.
-                exponent=parameters["exponent"].estimate if name == "branch_length" else None,
+                exponent=float(parameters["exponent"].estimate)
+                if name == "branch_length"
+                else None,
                 left_out_reason=reason or None,
             )
         )

@@ -1,6 +1,7 @@
 """Shielding by branch: the energy of branches of equal length against the ratio of their radii."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,7 +49,7 @@ def branch_shielding(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, NDArray], dict[str, float | str]]:
     r"""Return the mean energy of branches of equal length against the ratio of their radii.
 
@@ -83,7 +84,7 @@ def branch_shielding(
         As `statistics.gamma_regression.gamma_fit`, and as `statistics.power_law.power_law_fit` of
         any draw.
     """
-    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
     both = gamma_fit(seeds, _length_and_ratio)
     edges = _length_edges(seeds)
     sums = np.array([_seed_sums(*seed, edges) for seed in seeds])
@@ -159,7 +160,8 @@ def _energy_ratios(totals: NDArray, length: NDArray, to: int) -> NDArray:
     weight = number.sum(axis=2)
     mean = energy.sum(axis=2) / np.maximum(weight, 1.0)
     law = power_law_fit(length, mean, weight)
-    per_branch = law.amplitude[:, None] * length ** law.exponent[:, None]
+    amplitude, exponent = np.asarray(law.amplitude), np.asarray(law.exponent)
+    per_branch = amplitude[:, None] * length ** exponent[:, None]
     held, expected = energy.sum(axis=1), (number * per_branch[..., None]).sum(axis=1)
     # The draw's own scale: what is said is how branches of one draw compare.
     scale = held.sum(axis=1) / expected.sum(axis=1)

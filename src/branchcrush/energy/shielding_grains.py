@@ -28,7 +28,7 @@ def grain_shielding(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, NDArray], dict[str, float | str]]:
     r"""Return the energy of grains against their radius over that of their neighbours.
 
@@ -64,7 +64,7 @@ def grain_shielding(
         `shielding.claim_answer`: no such grain when no ratio reaches 10, undecided with fewer than
         ten that do.
     """
-    options = {"confidence": confidence, "resamples": resamples, "rng": rng}
+    options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
     ratios = [neighbour_ratio(network) for network in networks]
     sums = np.array(
         [
@@ -84,8 +84,8 @@ def grain_shielding(
         "grains": counts.astype(int).ravel(),
     }
     for number, reading in enumerate(_READINGS):
-        interval = Interval(*(values[number].ravel() for values in energies))
-        table |= interval.named(f"energy_per_{reading}")
+        interval = energies.part(number)
+        table |= Interval(*map(np.ravel, interval)).named(f"energy_per_{reading}")
     largest = max((ratio[np.isfinite(ratio)].max(initial=0.0) for ratio in ratios), default=0.0)
     return table, {"largest_neighbour_ratio": float(largest), **_claim(sums[:, 0], options)}
 

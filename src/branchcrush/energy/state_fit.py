@@ -15,6 +15,14 @@ _BENDS = ("curvature", "slope_at_10_percent", "slope_at_mean", "slope_at_90_perc
 def number_or_nan(value: float | None) -> float:
     """Return a number of a file; nan where the file has null.
 
+    Parameters
+    ----------
+    value : float or None
+
+    Returns
+    -------
+    float
+
     Examples
     --------
     >>> number_or_nan(None), number_or_nan(3)
@@ -62,7 +70,16 @@ class FittedPredictor:
 
     @classmethod
     def without(cls, name: str, formula: str, reason: str) -> "FittedPredictor":
-        """Return a predictor that has no fit, and why."""
+        """Return a predictor that has no fit, and why.
+
+        Parameters
+        ----------
+        name, formula, reason : str
+
+        Returns
+        -------
+        FittedPredictor
+        """
         return cls(name, formula, {}, UNKNOWN, None, reason=reason)
 
     def result(self) -> dict[str, Any]:
@@ -82,7 +99,17 @@ class FittedPredictor:
 
     @classmethod
     def read(cls, result: Mapping[str, Any]) -> "FittedPredictor":
-        """Return the predictor of which a file holds this."""
+        """Return the predictor of which a file holds this.
+
+        Parameters
+        ----------
+        result : mapping
+            As `result` returns it, null where it has nan.
+
+        Returns
+        -------
+        FittedPredictor
+        """
         if "reason" in result:
             return cls.without(result["name"], result["formula"], result["reason"])
         known = "difference_to_branch_length" in result
@@ -123,7 +150,21 @@ class Curvature:
 
     @classmethod
     def without(cls, reason: str) -> "Curvature":
-        """Return that there is no curvature, and why."""
+        """Return that there is no curvature, and why.
+
+        Parameters
+        ----------
+        reason : str
+
+        Returns
+        -------
+        Curvature
+
+        Examples
+        --------
+        >>> Curvature.without("two lengths").result()
+        {'reason': 'two lengths'}
+        """
         return cls(UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN, reason)
 
     def result(self) -> dict[str, Any]:
@@ -137,7 +178,17 @@ class Curvature:
 
     @classmethod
     def read(cls, result: Mapping[str, Any]) -> "Curvature":
-        """Return the curvature of which a file holds this."""
+        """Return the curvature of which a file holds this.
+
+        Parameters
+        ----------
+        result : mapping
+            As `result` returns it, null where it has nan.
+
+        Returns
+        -------
+        Curvature
+        """
         if "reason" in result:
             return cls.without(result["reason"])
         curvature, short, mean, long = (Interval.read(result, name) for name in _BENDS)
@@ -175,7 +226,17 @@ class StateFit:
 
     @classmethod
     def read(cls, result: Mapping[str, Any]) -> "StateFit":
-        """Return the state of which a file holds this."""
+        """Return the state of which a file holds this.
+
+        Parameters
+        ----------
+        result : mapping
+            As `result` returns it, null where it has nan.
+
+        Returns
+        -------
+        StateFit
+        """
         state = result.get("state")
         return cls(
             tuple(FittedPredictor.read(entry) for entry in result["predictors"]),

@@ -47,7 +47,7 @@ def force_distribution(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, NDArray]:
     r"""Return the distribution of relative forces, P(F/<F>), with intervals.
 
@@ -94,7 +94,7 @@ def share_below_mean(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> Interval:
     r"""Return the share of the contacts with less than the mean force.
 
@@ -115,7 +115,7 @@ def share_below_mean(
     >>> share_below_mean([[0.5, 0.5, 2.0]], rng=None).estimate
     0.6666666666666666
     """
-    sums = [(np.count_nonzero(np.asarray(force) < 1.0), np.size(force)) for force in forces]
+    sums = np.array([(np.sum(np.asarray(force) < 1.0), np.size(force)) for force in forces])
     return pooled_interval(
         sums,
         lambda totals: totals[:, 0] / np.maximum(totals[:, 1], 1.0),
@@ -131,7 +131,7 @@ def force_tail(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, float]:
     r"""Return how the distribution of relative forces falls above a threshold.
 
@@ -164,10 +164,12 @@ def force_tail(
     (1.0, 1.0)
     """
     excess = [np.asarray(force)[np.asarray(force) > threshold] - threshold for force in forces]
-    sums = [
-        (above.size, above.sum(), above @ above, np.size(force))
-        for above, force in zip(excess, forces, strict=True)
-    ]
+    sums = np.array(
+        [
+            (above.size, above.sum(), above @ above, np.size(force))
+            for above, force in zip(excess, forces, strict=True)
+        ]
+    )
 
     def tail(totals: NDArray) -> NDArray:
         number, first, second, contacts = totals.T
@@ -191,7 +193,7 @@ def force_by_length(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, NDArray], Interval | None]:
     r"""Return the mean relative force in bins of branch length, and its exponent.
 
@@ -245,7 +247,7 @@ def force_network_result(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, dict[str, NDArray]], dict[str, Any]]:
     r"""Return all that this module tells of the forces of a sample in one state.
 

@@ -21,7 +21,7 @@ def stress_by_radius(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> dict[str, NDArray]:
     r"""Return the mean stress of the grains of each class of radius over that of all.
 
@@ -121,7 +121,7 @@ def stress_sharing(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, NDArray], dict[str, float]]:
     r"""Return the cumulative stress against the cumulative volume, from the finest grains on.
 
@@ -173,7 +173,7 @@ def stress_sharing_result(
     *,
     confidence: float = 0.95,
     resamples: int = 2000,
-    rng: np.random.Generator | None,
+    rng: np.random.Generator,
 ) -> tuple[dict[str, dict[str, NDArray]], dict[str, float]]:
     r"""Return all that this module tells of the stress of a sample in one state.
 

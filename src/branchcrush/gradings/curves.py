@@ -1,68 +1,40 @@
-"""What is asked of a grading: its curves and diameters, and how near a packing comes to them.
+"""What is asked of a grading: its curves and diameters, and how near a packing comes to them."""
 
-Every form a grading can have returns a `Grading`.
-"""
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.gradings.distribution import Grading
-from branchcrush.gradings.forms import (
-    fractal,
-    fuller,
-    lognormal,
-    loguniform,
-    normal,
-    uniform,
-    weibull,
-)
-from branchcrush.gradings.mixtures import from_radii, mixture, single
-from branchcrush.gradings.tables import from_density, from_percent_finer
-
-__all__ = [
-    "Grading",
-    "fractal",
-    "from_density",
-    "from_percent_finer",
-    "from_radii",
-    "fuller",
-    "grading_summary",
-    "grading_table",
-    "lognormal",
-    "loguniform",
-    "mixture",
-    "normal",
-    "particle_diameter",
-    "realised_percent_finer",
-    "single",
-    "ultimate_grading",
-    "uniform",
-    "weibull",
-]
+from branchcrush.gradings.forms import fractal
 
 
-def particle_diameter(grading, percent):
-    """Return D_x, the diameter that x percent of the mass is finer than, as D10, D50 or D60.
+def particle_diameter(grading: Grading, percent: float) -> float:
+    r"""Return D_x, the diameter that x percent of the mass is finer than, as D10, D50 or D60.
+
+    .. math:: F(D_x/2) = x/100
 
     Parameters
     ----------
     grading : Grading
     percent : float
-        x [%].
+        x, 0 to 100 [%].
 
     Returns
     -------
     float
-        [m]
+        [m]; nan beyond 0 to 100 %.
 
     Examples
     --------
+    >>> from branchcrush.gradings.forms import fuller
     >>> round(particle_diameter(fuller(1.0, 9.0, 0.5), 50.0), 9)
     8.0
     """
     return 2.0 * float(grading.mass_ppf(percent / 100.0))
 
 
-def grading_summary(grading):
+def grading_summary(grading: Grading) -> dict[str, float]:
     r"""Return the diameters, coefficients and moments that a grading is known by.
 
     .. math:: C_u = D_{60}/D_{10}, \qquad C_c = D_{30}^2/(D_{10} D_{60})
@@ -79,6 +51,7 @@ def grading_summary(grading):
 
     Examples
     --------
+    >>> from branchcrush.gradings.forms import fuller
     >>> summary = grading_summary(fuller(1e-9, 1.0, 0.5))
     >>> round(summary["uniformity_coefficient"], 2), round(summary["curvature_coefficient"], 2)
     (35.98, 2.25)
@@ -102,8 +75,10 @@ def grading_summary(grading):
     }
 
 
-def ultimate_grading(grading, alpha):
-    """Return the fractal grading on the sizes of another: what crushing it completely leads to.
+def ultimate_grading(grading: Grading, alpha: float) -> Grading | None:
+    r"""Return the fractal grading on the sizes of another: what crushing it completely leads to.
+
+    .. math:: P(R) \propto R^{-(1+\alpha)}, \quad R_m \le R \le R_M
 
     Parameters
     ----------
@@ -118,15 +93,23 @@ def ultimate_grading(grading, alpha):
 
     Examples
     --------
+    >>> from branchcrush.gradings.forms import uniform
     >>> ultimate_grading(uniform(1.0, 9.0), 2.6).support()
     (1.0, 9.0)
+
+    References
+    ----------
+    Einav (2007), J. Mech. Phys. Solids 55, 1274-1297.
     """
     smallest, largest = grading.support()
     return fractal(smallest, largest, alpha) if smallest < largest else None
 
 
-def realised_percent_finer(radii, radius):
-    """Return the percent of the mass, and of the number, of a packing's grains up to a radius.
+def realised_percent_finer(radii: ArrayLike, radius: ArrayLike) -> tuple[NDArray, NDArray]:
+    r"""Return the percent of the mass, and of the number, of a packing's grains up to a radius.
+
+    .. math:: 100\, \frac{\sum_{R_i \le r} R_i^3}{\sum_i R_i^3}, \qquad
+        \frac{100}{N} \sum_{R_i \le r} 1
 
     Parameters
     ----------
@@ -152,7 +135,12 @@ def realised_percent_finer(radii, radius):
     return 100.0 * volume[finer] / volume[-1], 100.0 * finer / radii.size
 
 
-def grading_table(grading, radii, ultimate=None, points=200):
+def grading_table(
+    grading: Grading,
+    radii: Sequence[ArrayLike],
+    ultimate: Grading | None = None,
+    points: int = 200,
+) -> dict[str, NDArray]:
     """Return the target and the realised grading, by number and as percent finer by mass.
 
     Parameters
@@ -176,6 +164,7 @@ def grading_table(grading, radii, ultimate=None, points=200):
 
     Examples
     --------
+    >>> from branchcrush.gradings.forms import uniform
     >>> table = grading_table(uniform(1.0, 3.0), [[1.5, 2.5]])
     >>> float(table["percent_finer_by_mass_target"][-1])
     100.0
@@ -199,7 +188,7 @@ def grading_table(grading, radii, ultimate=None, points=200):
     return table
 
 
-def _radii_of_rows(gradings, points):
+def _radii_of_rows(gradings: Sequence[Grading], points: int) -> NDArray:
     ends = np.array([grading.support() for grading in gradings])
     start, end = ends.min(), ends.max()
     if not all(grading.has_density for grading in gradings):

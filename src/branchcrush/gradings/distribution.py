@@ -6,19 +6,20 @@ curves, quantiles and moments are exact to rounding whichever of the two was giv
 """
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import GradingError
-from branchcrush.gradings.panels import Cumulative, panel_values, resolved_edges
+from branchcrush.gradings.cumulative import CumulativeCurves
+from branchcrush.gradings.panels import Density, panel_values, resolved_edges
 
 
-class Grading:
+class Grading(CumulativeCurves):
     r"""A distribution of grain radius, by number n(R) and by mass g(R).
 
     .. math:: g(R) = R^3 n(R) / \langle R^3 \rangle
 
     A discrete part has no density: of a grading that has one, `number_pdf` is nan and
-    `has_density` is False. Cumulative curves are right-continuous: a grain counts at its own
-    radius.
+    `has_density` is False. Cumulative curves and quantiles are those of `CumulativeCurves`.
 
     Parameters
     ----------
@@ -43,94 +44,62 @@ class Grading:
     [0.0, 0.5, 1.0]
     """
 
-    def __init__(self, density=None, edges=(), radii=(), weights=()):
+    def __init__(
+        self,
+        density: Density | None = None,
+        edges: ArrayLike = (),
+        radii: ArrayLike = (),
+        weights: ArrayLike = (),
+    ) -> None:
         radii, place = np.unique(np.asarray(radii, dtype=float), return_inverse=True)
         weights = np.bincount(place.ravel(), np.asarray(weights, dtype=float), radii.size)
         edges = np.union1d(np.asarray(edges, dtype=float), radii)
         if not (edges.size and edges[0] > 0 and np.isfinite(edges[-1])):
             raise GradingError("a grading needs radii above 0 and below infinity: check its sizes")
         self._density = density
-        self._edges = edges if density is None else resolved_edges(density, edges)
-        self._logs = np.log(self._edges)
-        at_edges = np.zeros(self._edges.size)
-        at_edges[np.searchsorted(self._edges, radii)] = weights
-        radius, values = panel_values(density, self._edges)
-        cubes = [(r / edges[-1]) ** 3 for r in (radius, self._edges)]
-        self._number = Cumulative(values, at_edges)
-        self._mass = Cumulative(values * cubes[0], at_edges * cubes[1])
+        edges = edges if density is None else resolved_edges(density, edges)
+        at_edges = np.zeros(edges.size)
+        at_edges[np.searchsorted(edges, radii)] = weights
+        radius, values = panel_values(density, edges)
+        cubes = (radius / edges[-1]) ** 3, (edges / edges[-1]) ** 3
+        super().__init__(edges, (values, at_edges), cubes)
         self._scale = self._number.total
         self._discrete = radii, weights / self._scale
         self._rule = radius.ravel(), values.ravel() / self._scale
 
     @property
-    def has_density(self):
+    def has_density(self) -> bool:
         """Whether the grading is continuous, without single radii of their own."""
         return self._discrete[0].size == 0
 
     @property
-    def is_discrete(self):
+    def is_discrete(self) -> bool:
         """Whether the grading is single radii only."""
         return self._density is None
 
     @property
-    def breaks(self):
+    def breaks(self) -> NDArray:
         """Radii at the ends of the panels, between which the grading is smooth [m]."""
         return self._edges.copy()
 
     @property
-    def discrete_part(self):
+    def discrete_part(self) -> tuple[NDArray, NDArray]:
         """Radii of the discrete part [m], increasing, and their shares of the number [-]."""
-        return tuple(part.copy() for part in self._discrete)
+        radii, shares = self._discrete
+        return radii.copy(), shares.copy()
 
-    def support(self):
-        """Return the smallest and the largest radius [m].
+    def number_pdf(self, radius: ArrayLike) -> NDArray:
+        """Return the density by number at each radius.
 
-        Examples
-        --------
-        >>> Grading(radii=[3.0, 1.0], weights=[1.0, 1.0]).support()
-        (1.0, 3.0)
-        """
-        return float(self._edges[0]), float(self._edges[-1])
+        Parameters
+        ----------
+        radius : array_like, shape (...)
+            [m]
 
-    def number_cdf(self, radius):
-        """Return the share of the grains up to each radius [m], as the array's shape [-]."""
-        return self._number.below(*self._place(radius))
-
-    def mass_cdf(self, radius):
-        """Return the share of the mass in grains up to each radius [m] [-]."""
-        return self._mass.below(*self._place(radius))
-
-    def number_between(self, lower, upper):
-        """Return the share of grains above one radius and up to another [m], to rounding [-].
-
-        The difference of two cumulative shares near 1 would have no digits left.
-
-        Examples
-        --------
-        >>> Grading(radii=[1.0, 2.0], weights=[1.0, 1e-30]).number_between(1.5, 2.0).item()
-        1e-30
-        """
-        low, high = self._place(lower), self._place(upper)
-        below = self._number.below(*high) - self._number.below(*low)
-        above = self._number.above(*low) - self._number.above(*high)
-        return np.where(self._number.below(*high) < 0.5, below, above)
-
-    def number_ppf(self, share):
-        """Return the smallest radius up to which there is a share [-] of the grains [m].
-
-        Examples
-        --------
-        >>> Grading(radii=[1.0, 2.0], weights=[8.0, 1.0]).number_ppf([0.5, 0.95]).tolist()
-        [1.0, 2.0]
-        """
-        return self._quantile(self._number, share)
-
-    def mass_ppf(self, share):
-        """Return the smallest radius up to which there is a share [-] of the mass [m]."""
-        return self._quantile(self._mass, share)
-
-    def number_pdf(self, radius):
-        """Return the density by number at each radius [m]; nan if there is a discrete part [1/m].
+        Returns
+        -------
+        ndarray, shape (...)
+            n(R) [1/m]; nan if there is a discrete part.
 
         Examples
         --------
@@ -140,10 +109,20 @@ class Grading:
         radius = np.asarray(radius, dtype=float)
         return self.continuous_pdf(radius) if self.has_density else np.full(radius.shape, np.nan)
 
-    def moment(self, order):
-        r"""Return the raw moment by number, of order k [m^k].
+    def moment(self, order: float) -> float:
+        r"""Return the raw moment by number, of any order.
 
         .. math:: \langle R^k \rangle = \int R^k n(R)\, dR
+
+        Parameters
+        ----------
+        order : float
+            k [-].
+
+        Returns
+        -------
+        float
+            [m^k]
 
         Examples
         --------
@@ -154,15 +133,19 @@ class Grading:
         radii, shares = self._discrete
         return float(weight @ nodes**order + shares @ radii**order)
 
-    def quadrature(self, lower=None, upper=None, breaks=()):
-        """Return nodes and weights, so that sum(w g(R)) is the mean of g by number.
+    def quadrature(
+        self, lower: float | None = None, upper: float | None = None, breaks: ArrayLike = ()
+    ) -> tuple[NDArray, NDArray]:
+        r"""Return nodes and weights of means by number.
+
+        .. math:: \int_a^b g(R)\, n(R)\, dR \approx \sum_m w_m\, g(R_m)
 
         Gauss and Legendre's on every panel; the discrete part is summed as it is.
 
         Parameters
         ----------
         lower, upper : float, optional
-            Only grains above the one and up to the other [m]; all when left out.
+            a and b: only grains above the one and up to the other [m]; all when left out.
         breaks : array_like, shape (n,)
             Radii where g has a kink or jump [m].
 
@@ -185,13 +168,27 @@ class Grading:
         kept = (radii <= last) & ((radii > first) if lower is not None else True)
         if lower is not None and lower < start:
             kept |= (radii == start) & (start <= last)
-        edges = np.clip(np.concatenate([[first, last], self._edges, breaks]), first, last)
+        every = np.concatenate([[first, last], self._edges, np.asarray(breaks, dtype=float)])
+        edges = np.clip(every, first, last)
         nodes, values = panel_values(self._density, np.unique(edges))
         weight = np.append(values.ravel() / self._scale, shares[kept])
         return np.append(nodes.ravel(), radii[kept]), weight
 
-    def rvs(self, size=None, random_state=None):
-        """Return radii drawn at random by number, by a numpy Generator or a seed [m].
+    def rvs(
+        self, size: int | None = None, random_state: np.random.Generator | int | None = None
+    ) -> NDArray:
+        """Return radii drawn at random by number.
+
+        Parameters
+        ----------
+        size : int, optional
+            One radius when left out.
+        random_state : numpy.random.Generator or int, optional
+
+        Returns
+        -------
+        ndarray, shape (size,)
+            [m]
 
         Examples
         --------
@@ -200,34 +197,28 @@ class Grading:
         """
         return self.number_ppf(np.random.default_rng(random_state).random(size))
 
-    def continuous_pdf(self, radius):
-        """Return the number density of the continuous part, which integrates to its share [1/m]."""
+    def continuous_pdf(self, radius: ArrayLike) -> NDArray:
+        """Return the number density of the continuous part, which integrates to its share.
+
+        Parameters
+        ----------
+        radius : array_like, shape (...)
+            [m]
+
+        Returns
+        -------
+        ndarray, shape (...)
+            [1/m]; 0 outside the support.
+
+        Examples
+        --------
+        >>> half = Grading(lambda r: 0.0 * r + 0.5, [1.0, 2.0], radii=[1.5], weights=[0.5])
+        >>> half.continuous_pdf([0.9, 1.2]).round(12).tolist()
+        [0.0, 0.5]
+        """
         radius = np.asarray(radius, dtype=float)
-        if self.is_discrete:
+        if self._density is None:
             return np.zeros(radius.shape)
         start, end = self.support()
         inside = (radius >= start) & (radius <= end)
         return np.where(inside, self._density(np.clip(radius, start, end)), 0.0) / self._scale
-
-    def _place(self, radius):
-        """Return the panel of each radius, -1 below the first, and the place in it, -1 to 1."""
-        radius = np.asarray(radius, dtype=float)
-        panel = np.searchsorted(self._edges, radius, side="right") - 1
-        if self._edges.size == 1:
-            return panel, np.zeros(radius.shape)
-        index = np.clip(panel, 0, self._edges.size - 2)
-        low, high = self._logs[index], self._logs[index + 1]
-        inside = np.log(np.clip(radius, *self.support()))
-        # Edges next to each other may have the same logarithm.
-        width = np.maximum(high - low, np.finfo(float).tiny)
-        return panel, np.clip((2.0 * inside - low - high) / width, -1.0, 1.0)
-
-    def _quantile(self, cumulative, share):
-        share = np.asarray(share, dtype=float)
-        panel, place = cumulative.inverse(share.ravel())
-        low, high = (self._logs[np.minimum(panel + k, self._edges.size - 1)] for k in (0, 1))
-        radius = np.exp(low + (high - low) * place)
-        radius = np.where(place > 0.0, np.clip(radius, *self.support()), self._edges[panel])
-        radius[share.ravel() == 1.0] = self._edges[-1]
-        radius[~((share.ravel() >= 0.0) & (share.ravel() <= 1.0))] = np.nan
-        return radius.reshape(share.shape)[()]

@@ -5,10 +5,11 @@
 
 import numpy as np
 
+from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.truncation import truncated, truncated_distribution
 
 
-def uniform(radius_min, radius_max, by="number"):
+def uniform(radius_min: float, radius_max: float, by: str = "number") -> Grading:
     r"""Return the grading whose density is the same at every radius.
 
     .. math:: P(R) = 1/(R_M - R_m)
@@ -36,7 +37,13 @@ def uniform(radius_min, radius_max, by="number"):
     return power_law(0.0, radius_min, radius_max, by)
 
 
-def normal(mean, standard_deviation, radius_min, radius_max, by="number"):
+def normal(
+    mean: float,
+    standard_deviation: float,
+    radius_min: float,
+    radius_max: float,
+    by: str = "number",
+) -> Grading:
     r"""Return the normal grading.
 
     .. math:: P(R) \propto \exp\left(-\frac{(R - \mu)^2}{2 s^2}\right)
@@ -68,7 +75,13 @@ def normal(mean, standard_deviation, radius_min, radius_max, by="number"):
     return truncated_distribution(stats.norm(mean, standard_deviation), radius_min, radius_max, by)
 
 
-def lognormal(median, geometric_standard_deviation, radius_min, radius_max, by="number"):
+def lognormal(
+    median: float,
+    geometric_standard_deviation: float,
+    radius_min: float,
+    radius_max: float,
+    by: str = "number",
+) -> Grading:
     r"""Return the log-normal grading.
 
     .. math:: P(R) \propto \frac{1}{R}
@@ -111,7 +124,7 @@ def lognormal(median, geometric_standard_deviation, radius_min, radius_max, by="
     return truncated_distribution(stats.lognorm(s=width, scale=median), radius_min, radius_max, by)
 
 
-def loguniform(radius_min, radius_max, by="number"):
+def loguniform(radius_min: float, radius_max: float, by: str = "number") -> Grading:
     r"""Return the grading that is uniform in the logarithm of the radius.
 
     .. math:: P(R) = \frac{1}{R \ln(R_M/R_m)}
@@ -139,7 +152,9 @@ def loguniform(radius_min, radius_max, by="number"):
     return power_law(-1.0, radius_min, radius_max, by)
 
 
-def weibull(scale, shape, radius_min, radius_max, by="mass"):
+def weibull(
+    scale: float, shape: float, radius_min: float, radius_max: float, by: str = "mass"
+) -> Grading:
     r"""Return the Weibull grading; by mass it is that of Rosin and Rammler.
 
     .. math:: F(R) = 1 - \exp\left(-(R/R_s)^m\right)
@@ -173,7 +188,7 @@ def weibull(scale, shape, radius_min, radius_max, by="mass"):
     return truncated_distribution(stats.weibull_min(shape, scale=scale), radius_min, radius_max, by)
 
 
-def fractal(radius_min, radius_max, alpha):
+def fractal(radius_min: float, radius_max: float, alpha: float) -> Grading:
     r"""Return the grading of fractal dimension alpha, the ultimate one of crushing models.
 
     .. math:: P(R) \propto R^{-(1+\alpha)}, \qquad
@@ -208,7 +223,7 @@ def fractal(radius_min, radius_max, alpha):
     return power_law(-1.0 - alpha, radius_min, radius_max, "number")
 
 
-def fuller(radius_min, radius_max, exponent):
+def fuller(radius_min: float, radius_max: float, exponent: float) -> Grading:
     r"""Return the grading of Fuller's curve; 0.5 is his, 0.45 that of asphalt.
 
     .. math:: F(D) = \frac{D^q - D_m^q}{D_M^q - D_m^q}
@@ -242,7 +257,7 @@ def fuller(radius_min, radius_max, exponent):
     return power_law(exponent - 1.0, radius_min, radius_max, "mass")
 
 
-def power_law(power, radius_min, radius_max, by):
+def power_law(power: float, radius_min: float, radius_max: float, by: str) -> Grading:
     r"""Return the grading whose density is a power of the radius.
 
     .. math:: P(R) \propto R^p

@@ -1,19 +1,24 @@
 """Gradings of single sizes, and gradings made of others."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import GradingError
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.truncation import is_by_mass
 
 
-def single(radius):
-    """Return the grading of one size.
+def single(radius: float) -> Grading:
+    r"""Return the grading of one size.
+
+    .. math:: P(R') = \delta(R' - R)
 
     Parameters
     ----------
     radius : float
-        [m]
+        R [m].
 
     Returns
     -------
@@ -32,13 +37,15 @@ def single(radius):
     return Grading(radii=[radius], weights=[1.0])
 
 
-def from_radii(radii):
-    """Return the grading of given grains, each counting alike.
+def from_radii(radii: ArrayLike) -> Grading:
+    r"""Return the grading of given grains, each counting alike.
+
+    .. math:: P(R) = \frac{1}{n} \sum_i \delta(R - R_i)
 
     Parameters
     ----------
     radii : array_like, shape (n,)
-        [m]
+        R_i [m].
 
     Returns
     -------
@@ -57,7 +64,7 @@ def from_radii(radii):
     return Grading(radii=radii, weights=np.ones(np.size(radii)))
 
 
-def mixture(gradings, weights, by):
+def mixture(gradings: Sequence[Grading], weights: ArrayLike, by: str) -> Grading:
     r"""Return the mixture of gradings in parts by number or by mass.
 
     .. math:: P(R) = \sum_i \nu_i P_i(R), \qquad
@@ -85,21 +92,22 @@ def mixture(gradings, weights, by):
     >>> half.number_cdf(1.0).round(9).item()
     0.888888889
     """
-    weights = np.asarray(weights, dtype=float)
-    if not (weights.size == len(gradings) > 0 and np.all(weights > 0)):
-        raise GradingError(f"a mixture needs one weight above 0 for each part, not {weights}")
+    share = np.asarray(weights, dtype=float)
+    if not (share.size == len(gradings) > 0 and np.all(share > 0)):
+        raise GradingError(f"a mixture needs one weight above 0 for each part, not {share}")
     if is_by_mass(by):
-        weights = weights / [grading.moment(3) for grading in gradings]
-    weights = weights / weights.sum()
+        share = share / [grading.moment(3) for grading in gradings]
+    share = share / share.sum()
     parts = [grading.discrete_part for grading in gradings]
-    smooth = [(w, g) for w, g in zip(weights, gradings, strict=True) if not g.is_discrete]
+    smooth = [(w, g) for w, g in zip(share, gradings, strict=True) if not g.is_discrete]
 
-    def density(radius):
-        return sum(weight * grading.continuous_pdf(radius) for weight, grading in smooth)
+    def density(radius: NDArray) -> NDArray:
+        densities = (weight * grading.continuous_pdf(radius) for weight, grading in smooth)
+        return sum(densities, start=np.zeros(radius.shape))
 
     return Grading(
         density if smooth else None,
         np.concatenate([[], *(grading.breaks for _, grading in smooth)]),
         np.concatenate([radii for radii, _ in parts]),
-        np.concatenate([w * share for w, (_, share) in zip(weights, parts, strict=True)]),
+        np.concatenate([w * within for w, (_, within) in zip(share, parts, strict=True)]),
     )

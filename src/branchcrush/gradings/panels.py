@@ -1,9 +1,15 @@
 """Cumulative curves as Legendre series on panels of the logarithm of radius."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.polynomial import legendre
+from numpy.typing import NDArray
 
 from branchcrush.errors import GradingError
+
+# A density by number or by mass at radii [m], of any scale [1/m].
+Density = Callable[[NDArray], NDArray]
 
 _NODES, _WEIGHTS = legendre.leggauss(24)
 # Turns values at the nodes, times the weights, into Legendre coefficients of the polynomial.
@@ -41,7 +47,7 @@ class Cumulative:
     0.25
     """
 
-    def __init__(self, values, at_edges):
+    def __init__(self, values: NDArray, at_edges: NDArray) -> None:
         steps = np.zeros(2 * at_edges.size - 1)
         steps[0::2], steps[1::2] = at_edges, values.sum(axis=1)
         if not (np.all(steps >= 0) and 0 < steps.sum() < np.inf):
@@ -59,8 +65,21 @@ class Cumulative:
         self.rising = legendre.legint(series, lbnd=-1)
         self.falling = -legendre.legint(series, lbnd=1)
 
-    def below(self, panel, place):
-        """Return the share up to each place [-]."""
+    def below(self, panel: NDArray, place: NDArray) -> NDArray:
+        """Return the share up to each place.
+
+        Parameters
+        ----------
+        panel : ndarray of int, shape (...)
+            -1 below all panels.
+        place : ndarray, shape (...)
+            In the panel, -1 to 1 [-].
+
+        Returns
+        -------
+        ndarray, shape (...)
+            [-]
+        """
         index = np.clip(panel, 0, self.panels)
         level = np.where(panel < 0, 0.0, self.levels[2 * index + 1])
         # The series is 0 at the edge only to rounding.
@@ -68,16 +87,41 @@ class Cumulative:
         share = level + self._inside(self.rising, index, place, inside)
         return np.minimum(share, self.levels[np.minimum(2 * index + 2, 2 * self.panels + 1)])[()]
 
-    def above(self, panel, place):
-        """Return the share above each place, with its own digits where it is small [-]."""
+    def above(self, panel: NDArray, place: NDArray) -> NDArray:
+        """Return the share above each place, with its own digits where it is small.
+
+        Parameters
+        ----------
+        panel : ndarray of int, shape (...)
+            -1 below all panels.
+        place : ndarray, shape (...)
+            In the panel, -1 to 1 [-].
+
+        Returns
+        -------
+        ndarray, shape (...)
+            [-]
+        """
         index = np.clip(panel, 0, self.panels)
         last = np.minimum(2 * index + 2, 2 * self.panels + 1)
         level = np.where(panel < 0, 1.0, self.rest[last])
         inside = (panel >= 0) & (panel < self.panels) & (place < 1.0)
         return (level + self._inside(self.falling, index, place, inside))[()]
 
-    def inverse(self, share):
-        """Return the panel that reaches each share, and the place in it, 0 to 1."""
+    def inverse(self, share: NDArray) -> tuple[NDArray, NDArray]:
+        """Return the panel that reaches each share, and the place in it.
+
+        Parameters
+        ----------
+        share : ndarray, shape (n,)
+            0 to 1 [-].
+
+        Returns
+        -------
+        panel : ndarray of int, shape (n,)
+        place : ndarray, shape (n,)
+            From 0 to 1 across the panel [-].
+        """
         step = np.clip(np.searchsorted(self.levels, share) - 1, 0, 2 * self.panels)
         panel, place = step // 2, np.zeros(share.shape)
         inside = step % 2 == 1
@@ -85,13 +129,13 @@ class Cumulative:
         place[inside] = (self._root(panel[inside], wanted) + 1.0) / 2.0
         return panel, place
 
-    def _inside(self, series, index, place, inside):
+    def _inside(self, series: NDArray, index: NDArray, place: NDArray, inside: NDArray) -> NDArray:
         if not np.any(inside):
-            return 0.0
+            return np.zeros(())
         index = np.minimum(index, self.panels - 1)
         return np.where(inside, np.maximum(_series_sum(series, index, place), 0.0), 0.0)
 
-    def _root(self, panel, wanted):
+    def _root(self, panel: NDArray, wanted: NDArray) -> NDArray:
         # Newton's method, halving its bracket whenever it leaves it: a density may vanish.
         whole = self.levels[2 * panel + 2] - self.levels[2 * panel + 1]
         place, low, high = 2.0 * wanted / whole - 1.0, -np.ones(panel.size), np.ones(panel.size)
@@ -113,7 +157,7 @@ class Cumulative:
         return place
 
 
-def _series_sum(series, index, x):
+def _series_sum(series: NDArray, index: NDArray, x: NDArray) -> NDArray:
     """Return the Legendre series of each panel index at x: Clenshaw's sum."""
     after, last = np.zeros(np.shape(x)), np.zeros(np.shape(x))
     for k in range(len(series) - 1, 0, -1):
@@ -122,8 +166,25 @@ def _series_sum(series, index, x):
     return series[0][index] + x * after - last / 2.0
 
 
-def panel_values(density, edges):
-    """Return nodes in each panel [m] and their weights, density times dR: (panels, nodes) both.
+def panel_values(density: Density | None, edges: NDArray) -> tuple[NDArray, NDArray]:
+    r"""Return nodes in each panel and their weights, by Gauss and Legendre in the logarithm of R.
+
+    .. math:: \int_{R_k}^{R_{k+1}} g\, n\, dR \approx \sum_m w_{km}\, g(R_{km}), \qquad
+        w_{km} = n(R_{km})\, R_{km}\, h_k \omega_m
+
+    2 h_k is the width of the panel in ln R, omega_m are the weights on -1 to 1.
+
+    Parameters
+    ----------
+    density : callable or None
+        n [1/m]; None has no nodes.
+    edges : ndarray, shape (panels+1,)
+        Increasing [m].
+
+    Returns
+    -------
+    radius, weight : ndarray, shape (panels, nodes)
+        [m] and [-].
 
     Examples
     --------
@@ -139,8 +200,20 @@ def panel_values(density, edges):
     return radius, half * _WEIGHTS * radius * np.asarray(density(radius), dtype=float)
 
 
-def resolved_edges(density, edges):
-    """Return the edges [m] with more between them, until panels hold the density to rounding.
+def resolved_edges(density: Density, edges: NDArray) -> NDArray:
+    """Return the edges with more between them, until panels hold the density to rounding.
+
+    Parameters
+    ----------
+    density : callable
+        By number, smooth between the edges [1/m].
+    edges : ndarray, shape (n,)
+        Increasing [m].
+
+    Returns
+    -------
+    ndarray, shape (panels+1,)
+        The edges among them [m].
 
     Examples
     --------

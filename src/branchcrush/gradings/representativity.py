@@ -1,10 +1,14 @@
 """Whether a number of grains can stand for a grading, and how near the drawn ones come to it."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.gradings.curves import grading_summary
+from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.geometry import UNIT_SPHERE
 
@@ -19,60 +23,54 @@ _MASS_OF_LARGEST = 0.999
 
 @dataclass(frozen=True)
 class Representativity:
-    """How well a number of grains stands for a grading, expected before they are drawn.
+    """How well a number of grains stands for a grading, expected before they are drawn."""
 
-    grains: N; coarse_grains: expected in the coarsest 10 % of the mass; largest_diameter: that
-    99.9 % of the mass is finer than [m]; expected_largest_diameter: of the largest of N grains
-    drawn, the median [m]; box_edge: of a cube of N mean grains [m]; grains_needed: for no warning;
-    verdict: "accept", "warn" or "refuse"; message: what it rests on.
-    """
-
-    grains: int
-    coarse_grains: float
-    largest_diameter: float
-    expected_largest_diameter: float
-    box_edge: float
-    grains_needed: int
-    verdict: str
-    message: str
+    grains: int  # N
+    coarse_grains: float  # expected in the coarsest 10 % of the mass [-]
+    largest_diameter: float  # that 99.9 % of the mass is finer than [m]
+    expected_largest_diameter: float  # of the largest of N grains drawn, the median [m]
+    box_edge: float  # of a cube of N mean grains [m]
+    grains_needed: int  # for no warning
+    verdict: Literal["accept", "warn", "refuse"]
+    message: str  # what it rests on
 
     @property
-    def edge_over_diameter(self):
+    def edge_over_diameter(self) -> float:
         """Edge of the box over the largest diameter [-]."""
         return self.box_edge / self.largest_diameter
 
 
-def representativity(grading, grains, solid_fraction):
+def representativity(grading: Grading, grains: int, solid_fraction: float) -> Representativity:
     r"""Return whether N grains can stand for a grading in a box of a solid fraction.
 
-        .. math:: N_{10} = N \,(1 - F(R_{90}^-)), \qquad
-            L = \left(\frac{4 \pi N \langle R^3 \rangle}{3 \phi}\right)^{1/3}
+    .. math:: N_{10} = N \,(1 - F_n(R_{90}^-)), \qquad
+        L = \left(\frac{4 \pi N \langle R^3 \rangle}{3 \phi}\right)^{1/3}
 
-        Of single sizes all grains of the size that 90 % of the mass end in are counted.
+    Of single sizes all grains of the size that 90 % of the mass end in are counted.
 
-        Parameters
-        ----------
-        grading : Grading
-        grains : int
-            N.
-        solid_fraction : float
-            phi, at the end of the loading [-].
+    Parameters
+    ----------
+    grading : Grading
+    grains : int
+        N.
+    solid_fraction : float
+        phi, at the end of the loading [-].
 
-        Returns
-        -------
-        Representativity
-            Refused below 5 grains in the coarsest 10 % of the mass or a box of 3 largest diameters,
-            with a warning below 10 or 5.
+    Returns
+    -------
+    Representativity
+        Refused below 5 grains in the coarsest 10 % of the mass or a box of 3 largest diameters,
+        with a warning below 10 or 5.
 
-        Examples
-        --------
+    Examples
+    --------
     >>> from branchcrush.gradings.forms import fractal
     >>> from branchcrush.gradings.mixtures import single
-        >>> representativity(single(1e-3), 1000, 0.6).verdict
-        'accept'
-        >>> few = representativity(fractal(5e-6, 1e-3, 2.6), 1000, 0.74)
-        >>> few.verdict, few.grains_needed > 1_000_000
-        ('refuse', True)
+    >>> representativity(single(1e-3), 1000, 0.6).verdict
+    'accept'
+    >>> few = representativity(fractal(5e-6, 1e-3, 2.6), 1000, 0.74)
+    >>> few.verdict, few.grains_needed > 1_000_000
+    ('refuse', True)
     """
     coarse_share = _share_from(grading, grading.mass_ppf(1.0 - _COARSE_SHARE))
     diameter = 2.0 * float(grading.mass_ppf(_MASS_OF_LARGEST))
@@ -84,6 +82,7 @@ def representativity(grading, grains, solid_fraction):
         np.ceil(_ENOUGH_GRAINS / coarse_share * (1 - 1e-9)),
         np.ceil((_ENOUGH_DIAMETERS * diameter) ** 3 / bulk * (1 - 1e-9)),
     )
+    verdict: Literal["accept", "warn", "refuse"]
     if coarse < _REFUSED_GRAINS or edge < _REFUSED_DIAMETERS * diameter:
         verdict = "refuse"
     elif grains < needed:
@@ -112,33 +111,33 @@ def representativity(grading, grains, solid_fraction):
     )
 
 
-def realised_gap(grading, radii):
+def realised_gap(grading: Grading, radii: ArrayLike) -> float:
     r"""Return the largest gap between the realised and the target sieve curve.
 
-        .. math:: \max_r \left| F_{\mathrm{realised}}(r) - F(r) \right|
+    .. math:: \max_r \left| F_{\mathrm{realised}}(r) - F(r) \right|
 
-        Both sides of every step are looked at, so nothing between them is larger.
+    Both sides of every step are looked at, so nothing between them is larger.
 
-        Parameters
-        ----------
-        grading : Grading
-            Target.
-        radii : array_like, shape (N,)
-            Radii of the grains [m].
+    Parameters
+    ----------
+    grading : Grading
+        Target.
+    radii : array_like, shape (N,)
+        Radii of the grains [m].
 
-        Returns
-        -------
-        float
-            In percent finer by mass [%].
+    Returns
+    -------
+    float
+        In percent finer by mass [%].
 
-        Examples
-        --------
+    Examples
+    --------
     >>> from branchcrush.gradings.mixtures import from_radii
     >>> from branchcrush.gradings.forms import uniform
-        >>> realised_gap(from_radii([1.0, 2.0]), [1.0, 2.0, 1.0, 2.0])
-        0.0
-        >>> realised_gap(uniform(1.0, 3.0), [3.0])
-        100.0
+    >>> realised_gap(from_radii([1.0, 2.0]), [1.0, 2.0, 1.0, 2.0])
+    0.0
+    >>> realised_gap(uniform(1.0, 3.0), [3.0])
+    100.0
     """
     realised, number = np.unique(np.asarray(radii, dtype=float), return_counts=True)
     volume = number * realised**3
@@ -151,7 +150,9 @@ def realised_gap(grading, radii):
     return 100.0 * float(np.abs([after, before]).max())
 
 
-def representativity_report(standing, grading, radii):
+def representativity_report(
+    standing: Representativity, grading: Grading, radii: Sequence[ArrayLike]
+) -> dict[str, dict]:
     """Return what a packing of these grains stands for: expected, and realised by every seed.
 
     Parameters
@@ -167,12 +168,22 @@ def representativity_report(standing, grading, radii):
     dict
         target (diameters, coefficients and moments of the grading), realised (means of the same
         over the seeds) and representativity, with `warnings` to be repeated wherever results are.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.mixtures import single
+    >>> size = single(1e-3)
+    >>> report = representativity_report(representativity(size, 1000, 0.6), size, [[1e-3, 1e-3]])
+    >>> report["realised"]["D50_m"], report["representativity"]["largest_gap_percent_max"]
+    (0.002, 0.0)
     """
     realised = [grading_summary(from_radii(seed)) for seed in radii]
     gaps = [realised_gap(grading, seed) for seed in radii]
     return {
         "target": grading_summary(grading),
-        "realised": {key: float(np.mean([r[key] for r in realised])) for key in realised[0]},
+        "realised": {
+            key: float(np.mean([summary[key] for summary in realised])) for key in realised[0]
+        },
         "representativity": {
             **asdict(standing),
             "edge_over_diameter": standing.edge_over_diameter,
@@ -183,14 +194,15 @@ def representativity_report(standing, grading, radii):
     }
 
 
-def _share_from(grading, radius):
+def _share_from(grading: Grading, radius: float | NDArray) -> float:
     """Return the share of the number at a radius or above it."""
     single, share = grading.discrete_part
     above = grading.number_between(radius, grading.support()[1])
     return float(above + share[single == radius].sum())
 
 
-def _at(steps, radii, values):
+def _at(steps: NDArray, radii: NDArray, values: NDArray) -> NDArray:
+    """Return values at their radii among the steps, 0 at the others."""
     heights = np.zeros(steps.size)
     heights[np.searchsorted(steps, radii)] = values
     return heights

@@ -1,11 +1,16 @@
 """Radii of the grains of a packing, drawn from a grading at random or at its quantiles."""
 
 import numpy as np
+from numpy.typing import NDArray
+
+from branchcrush.gradings.distribution import Grading
 
 METHODS = ("random", "number_quantiles", "mass_quantiles")
 
 
-def sampled_radii(grading, grains, method, rng):
+def sampled_radii(
+    grading: Grading, grains: int, method: str, rng: np.random.Generator | None
+) -> NDArray:
     r"""Return the radii of N grains of a grading, the largest first.
 
     "random" draws them independently. "number_quantiles" takes the middle of N intervals of equal
@@ -22,8 +27,8 @@ def sampled_radii(grading, grains, method, rng):
         N.
     method : {"random", "number_quantiles", "mass_quantiles"}
         An interval across two single sizes has a grain between them by "mass_quantiles" only.
-    rng : numpy.random.Generator
-        Used by "random".
+    rng : numpy.random.Generator or None
+        Used by "random" only.
 
     Returns
     -------
@@ -54,7 +59,7 @@ def sampled_radii(grading, grains, method, rng):
     return np.sort(radii)[::-1]
 
 
-def _radii_of_mean_volume(grading, grains):
+def _radii_of_mean_volume(grading: Grading, grains: int) -> NDArray:
     ends = np.arange(grains + 1) / grains
     radius = grading.number_ppf(ends)
     # The mass of the smallest grains up to a share of the number, which may end within one size.

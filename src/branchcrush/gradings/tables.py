@@ -1,12 +1,20 @@
 """Gradings from tables: a sieve curve, or a density at a few radii."""
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import GradingError
+from branchcrush.gradings.distribution import Grading
+from branchcrush.gradings.panels import Density
 from branchcrush.gradings.truncation import truncated
 
 
-def from_percent_finer(radius, percent, radius_min=None, radius_max=None):
+def from_percent_finer(
+    radius: ArrayLike,
+    percent: ArrayLike,
+    radius_min: float | None = None,
+    radius_max: float | None = None,
+) -> Grading:
     r"""Return the grading of a sieve curve, drawn through its points without overshooting.
 
     .. math:: g(R) = \frac{1}{R} \frac{d F}{d \ln R}
@@ -66,15 +74,23 @@ def from_percent_finer(radius, percent, radius_min=None, radius_max=None):
 
     slope = PchipInterpolator(np.log(radius), percent / 100).derivative()
 
-    def density(r):
+    def density_by_mass(r: NDArray) -> NDArray:
         # A level part must not come out below 0 by rounding.
         return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
 
-    return _between(density, radius, radius_min, radius_max, "mass")
+    return _between(density_by_mass, radius, radius_min, radius_max, "mass")
 
 
-def from_density(radius, density, by, radius_min=None, radius_max=None):
-    """Return the grading whose density is drawn straight from point to point.
+def from_density(
+    radius: ArrayLike,
+    density: ArrayLike,
+    by: str,
+    radius_min: float | None = None,
+    radius_max: float | None = None,
+) -> Grading:
+    r"""Return the grading whose density is drawn straight from point to point.
+
+    .. math:: P(R) \propto P_k + (P_{k+1} - P_k) \frac{R - R_k}{R_{k+1} - R_k}
 
     Parameters
     ----------
@@ -109,7 +125,13 @@ def from_density(radius, density, by, radius_min=None, radius_max=None):
     return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
 
 
-def _between(density, radius, radius_min, radius_max, by):
+def _between(
+    density: Density,
+    radius: NDArray,
+    radius_min: float | None,
+    radius_max: float | None,
+    by: str,
+) -> Grading:
     low = radius[0] if radius_min is None else max(radius_min, radius[0])
     high = radius[-1] if radius_max is None else min(radius_max, radius[-1])
     if not low < high:
@@ -120,7 +142,7 @@ def _between(density, radius, radius_min, radius_max, by):
     return truncated(density, radius, low, high, by)
 
 
-def _columns(radius, values):
+def _columns(radius: ArrayLike, values: ArrayLike) -> tuple[NDArray, NDArray]:
     radius, values = np.asarray(radius, dtype=float), np.asarray(values, dtype=float)
     usable = radius.shape == values.shape and radius.ndim == 1 and radius.size > 1
     if not (usable and np.isfinite([radius, values]).all() and np.all(np.diff(radius) > 0)):

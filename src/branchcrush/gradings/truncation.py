@@ -1,9 +1,14 @@
 """Gradings from a density, cut at two radii and turned from mass to number."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from branchcrush.errors import GradingError
 from branchcrush.gradings.distribution import Grading
+from branchcrush.gradings.panels import Density
 
 # Less of a distribution than this between the two ends: they were hardly meant.
 LEAST_SHARE = 1e-6
@@ -11,19 +16,25 @@ LEAST_SHARE = 1e-6
 _TAILS = np.array([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.02, 0.16, 0.5])
 
 
-def truncated(density, breaks, radius_min, radius_max, by):
+def truncated(
+    density: Density,
+    breaks: Sequence[float] | NDArray,
+    radius_min: float,
+    radius_max: float,
+    by: str,
+) -> Grading:
     r"""Return the grading of a density by number or by mass, cut at two radii.
 
-    .. math:: n(R) \propto R^{-3} g(R)
+    .. math:: n(R) \propto R^{-3} g(R), \quad R_m \le R \le R_M
 
     Parameters
     ----------
     density : callable
-        Of any scale, smooth between the breaks [1/m].
+        n, or g by mass, of any scale and smooth between the breaks [1/m].
     breaks : array_like, shape (n,)
         Where it has a kink, jump or narrow peak [m].
     radius_min, radius_max : float
-        Smallest and largest radius [m].
+        R_m and R_M [m].
     by : {"number", "mass"}
 
     Returns
@@ -45,15 +56,28 @@ def truncated(density, breaks, radius_min, radius_max, by):
     inside = [r for r in breaks if radius_min < r < radius_max]
     power = -3.0 if is_by_mass(by) else 0.0
 
-    def by_number(radius):
+    def by_number(radius: NDArray) -> NDArray:
         within = (radius >= radius_min) & (radius <= radius_max)
         return np.where(within, density(radius) * (radius / radius_max) ** power, 0.0)
 
     return Grading(by_number, [radius_min, *inside, radius_max])
 
 
-def is_by_mass(by):
-    """Return whether a basis is mass; GradingError unless it is that or number.
+def is_by_mass(by: str) -> bool:
+    """Return whether a basis is mass.
+
+    Parameters
+    ----------
+    by : {"number", "mass"}
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    GradingError
+        For another word.
 
     Examples
     --------
@@ -65,8 +89,23 @@ def is_by_mass(by):
     return by == "mass"
 
 
-def share_within(distribution, lower, upper):
-    """Return the share of a SciPy distribution between two values, to rounding in both tails.
+def share_within(distribution: Any, lower: float, upper: float) -> float:
+    r"""Return the share of a SciPy distribution between two values, to rounding in both tails.
+
+    .. math:: F(b) - F(a) = (1 - F(a)) - (1 - F(b))
+
+    The second form, by the survival function, keeps its digits where F is near 1.
+
+    Parameters
+    ----------
+    distribution : frozen scipy.stats distribution
+    lower, upper : float
+        a and b, in its unit.
+
+    Returns
+    -------
+    float
+        [-]
 
     Examples
     --------
@@ -79,7 +118,9 @@ def share_within(distribution, lower, upper):
     return float(distribution.sf(lower) - distribution.sf(upper))
 
 
-def truncated_distribution(distribution, radius_min, radius_max, by):
+def truncated_distribution(
+    distribution: Any, radius_min: float, radius_max: float, by: str
+) -> Grading:
     """Return the grading of a SciPy distribution of the radius, cut at two radii.
 
     Parameters
@@ -119,7 +160,7 @@ def truncated_distribution(distribution, radius_min, radius_max, by):
     return truncated(distribution.pdf, breaks, radius_min, radius_max, by)
 
 
-def _check_order(radius_min, radius_max):
+def _check_order(radius_min: float, radius_max: float) -> None:
     if not 0 < radius_min < radius_max < np.inf:
         raise GradingError(
             f"the smallest radius {radius_min:g} m must be above 0 and below the largest "

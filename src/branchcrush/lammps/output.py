@@ -11,7 +11,8 @@ from pyarrow import csv
 
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.files import read_dump
-from branchcrush.loading.states import path_row, state_contacts, wall_contacts
+from branchcrush.loading.path import path_row
+from branchcrush.loading.states import state_contacts, wall_contacts
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.packings.geometry import cube
 
@@ -21,7 +22,7 @@ DUMPS = ("particles.dump.gz", "pairs.dump.gz")
 class Compression(NamedTuple):
     """What a compression leaves: a table for each kind of thing, as a dict of columns."""
 
-    path: dict  # a row for each state, as `loading.states.path_row`
+    path: dict  # a row for each state, as `loading.path.path_row`
     contacts: dict  # a row for each contact and state, as `loading.states.state_contacts`
     walls: dict  # the same with walls, as `loading.states.wall_contacts`
     steps: dict  # a row for each strain step

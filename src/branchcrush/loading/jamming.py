@@ -3,32 +3,37 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
 
 # How far above the first loaded state the states of the fit reach, in solid fraction.
 _WINDOW = 0.04
 _FEWEST = 4
+# Share of a normal distribution up to one standard deviation above its mean.
+_ONE_DEVIATION = 0.841344746
 
 
 class Jamming(NamedTuple):
-    """phi_J with its uncertainty (one standard deviation) and how many states gave it."""
+    """The jamming point of a packing, and how well it is known."""
 
-    solid_fraction: float
-    uncertainty: float
-    states: int
+    solid_fraction: float  # phi_J [-]
+    uncertainty: float  # one standard deviation [-]
+    states: int  # how many gave it
 
 
-def jamming_point(solid_fraction, mean_stress, contact_exponent, loaded):
+def jamming_point(
+    solid_fraction: ArrayLike, mean_stress: ArrayLike, contact_exponent: float, loaded: ArrayLike
+) -> Jamming:
     r"""Return the jamming point of one packing, by extrapolating its stress to zero.
 
     .. math:: P^{1/m} = a\,(\phi - \phi_J) + b\,(\phi - \phi_J)^2
 
     m is the exponent of the contact force in the overlap: 1 for linear contacts, 3/2 for Hertz.
     The fit takes the states up to 0.04 above the first that is loaded for good; phi_J is not below
-    the last state without load. The uncertainty holds the standard error, and half of what leaving
-    out the second term would change, and is no more than lies between the last state without load
-    and the first with.
+    the last state without load. The uncertainty holds the standard error times Student's t of one
+    standard deviation, and half of what leaving out the second term would change, and is no more
+    than lies between the last state without load and the first with.
 
     Parameters
     ----------
@@ -60,10 +65,10 @@ def jamming_point(solid_fraction, mean_stress, contact_exponent, loaded):
     O'Hern, Silbert, Liu and Nagel (2003), Phys. Rev. E 68, 011306.
     """
     order = np.argsort(solid_fraction)
-    phi, stress = (np.asarray(x, dtype=float)[order] for x in (solid_fraction, mean_stress))
-    loaded = np.asarray(loaded, dtype=bool)[order]
+    phi = np.asarray(solid_fraction, dtype=float)[order]
+    stress = np.asarray(mean_stress, dtype=float)[order]
     # A packing may carry load, rearrange and be loose again: it jams after it was last loose.
-    loose = phi[~loaded].max(initial=0.0)
+    loose = phi[~np.asarray(loaded, dtype=bool)[order]].max(initial=0.0)
     above = phi > loose
     phi, root = phi[above], stress[above] ** (1.0 / contact_exponent)
     if phi.size < _FEWEST:
@@ -85,12 +90,11 @@ def jamming_point(solid_fraction, mean_stress, contact_exponent, loaded):
     return Jamming(float(known), float(uncertainty), int(phi.size))
 
 
-def _zero(phi, root, degree):
-    """Return where a polynomial fitted to root(phi) vanishes next below the data, and its error."""
-    centre, scale = phi[0], root.max()
-    x, y = phi - centre, root / scale
-    powers = np.vander(x, degree + 1, increasing=True)
-    weights, *_ = np.linalg.lstsq(powers, y, rcond=None)
+def _zero(phi: NDArray, root: NDArray, degree: int) -> tuple[float, float]:
+    """Return where a polynomial fitted to root(phi) vanishes next to the first, and its error."""
+    first, relative = phi[0], root / root.max()
+    powers = np.vander(phi - first, degree + 1, increasing=True)
+    weights, *_ = np.linalg.lstsq(powers, relative, rcond=None)
     # Not `numpy.polynomial`: its roots lose the near one where the curvature is but rounding.
     zeros = np.roots(weights[::-1])
     zeros = zeros[np.isreal(zeros)].real
@@ -103,10 +107,10 @@ def _zero(phi, root, degree):
     slope = np.polyval(np.polyder(weights[::-1]), zero)
     from scipy.special import stdtrit  # slow to import, and few jobs need it
 
-    spare = x.size - degree - 1
-    variance = np.sum((powers @ weights - y) ** 2) / max(spare, 1)
+    spare = phi.size - degree - 1
+    variance = np.sum((powers @ weights - relative) ** 2) / max(spare, 1)
     covariance = variance * np.linalg.pinv(powers.T @ powers)
     at_zero = zero ** np.arange(degree + 1)
     error = np.sqrt(at_zero @ covariance @ at_zero) / slope
     # Few spare states tell little of their own scatter: Student's t makes up for it.
-    return zero + centre, float(error * stdtrit(max(spare, 1), 0.841344746))
+    return float(zero + first), float(error * stdtrit(max(spare, 1), _ONE_DEVIATION))

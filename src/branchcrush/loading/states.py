@@ -1,33 +1,33 @@
-"""The loading path: what each saved state of a compression tells."""
+"""The contacts of a saved state, from what LAMMPS dumps: whether they keep the law, carry load."""
+
+from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import SimulationError
-from branchcrush.packings.contact_laws import reduced_radius
-from branchcrush.packings.contacts import (
-    coordination_number,
-    mean_stress,
-    mechanical_coordination_number,
-    rattlers,
-    unbalanced_force_ratio,
-)
-from branchcrush.packings.geometry import cube, solid_volume
+from branchcrush.packings.contact_laws import HertzContact, LinearContact, reduced_radius
+
+# Arrays of one length by name.
+Columns = Mapping[str, NDArray]
 
 # The overlap of two mean grains, over their radius, whose force is the mean one below which a
 # packing carries no load.
 NO_LOAD = 1e-4
 
 
-def force_floor(radii, law):
+def force_floor(radii: ArrayLike, law: LinearContact | HertzContact) -> float:
     r"""Return the mean contact force below which a packing carries no load.
 
     .. math:: F_0 = F(10^{-4} \langle R \rangle,\ \langle R \rangle / 2)
+
+    F is the law at an overlap and a reduced radius, here those of two mean grains.
 
     Parameters
     ----------
     radii : array_like, shape (N,)
         [m]
-    law : contact_law.LinearContact or HertzContact
+    law : LinearContact or HertzContact
 
     Returns
     -------
@@ -40,17 +40,42 @@ def force_floor(radii, law):
     >>> force_floor([1e-3], LinearContact(1e6))
     0.1
     """
-    mean = float(np.mean(radii))
+    mean = float(np.asarray(radii, dtype=float).mean())
     return float(law.force(NO_LOAD * mean, mean / 2.0))
 
 
-def stress_floor(radii, law):
-    r"""Return the mean stress that stands for no load, F_0 / (pi <R>^2) [Pa]."""
-    return force_floor(radii, law) / (np.pi * float(np.mean(radii)) ** 2)
+def stress_floor(radii: ArrayLike, law: LinearContact | HertzContact) -> float:
+    r"""Return the mean stress that stands for no load.
+
+    .. math:: P_0 = \frac{F_0}{\pi \langle R \rangle^2}
+
+    Parameters
+    ----------
+    radii : array_like, shape (N,)
+        [m]
+    law : LinearContact or HertzContact
+
+    Returns
+    -------
+    float
+        [Pa]
+
+    Examples
+    --------
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> round(stress_floor([1e-3], LinearContact(np.pi * 1e6)), 6)
+    100000.0
+    """
+    mean = float(np.asarray(radii, dtype=float).mean())
+    return force_floor(radii, law) / (np.pi * mean**2)
 
 
-def state_contacts(pairs, radii, law):
-    """Return the grain-grain contacts of a state, each once, sorted by grain.
+def state_contacts(
+    pairs: Columns, radii: NDArray, law: LinearContact | HertzContact
+) -> dict[str, NDArray]:
+    r"""Return the grain-grain contacts of a state, each once, sorted by grain.
+
+    .. math:: \delta = R_i + R_j - l, \quad \mathbf{l} = \mathbf{x}_j - \mathbf{x}_i
 
     Parameters
     ----------
@@ -58,7 +83,7 @@ def state_contacts(pairs, radii, law):
         A frame of the pair dump: id1, id2, branch and branch_x, -y, -z [m], force [N].
     radii : ndarray, shape (N,)
         By id [m].
-    law : contact_law.LinearContact or HertzContact
+    law : LinearContact or HertzContact
 
     Returns
     -------
@@ -71,6 +96,16 @@ def state_contacts(pairs, radii, law):
     ------
     SimulationError
         When a contact is listed twice.
+
+    Examples
+    --------
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> columns = {"id1": 2, "id2": 1, "branch": 2.5, "force": 5.0,
+    ...            "branch_x": 2.5, "branch_y": 0.0, "branch_z": 0.0}
+    >>> pairs = {name: np.array([value]) for name, value in columns.items()}
+    >>> contacts = state_contacts(pairs, np.array([1.0, 2.0]), LinearContact(10.0))
+    >>> [contacts[name].tolist() for name in ("i", "j", "branch_x", "overlap_m", "energy_J")]
+    [[0], [1], [2.5], [0.5], [1.25]]
     """
     first, second = (np.asarray(pairs[name], dtype=int) - 1 for name in ("id1", "id2"))
     i, j = np.minimum(first, second), np.maximum(first, second)
@@ -101,31 +136,34 @@ def state_contacts(pairs, radii, law):
     }
 
 
-def wall_contacts(particles, edge):
-    """Return the grain-wall contacts of a state.
+def wall_contacts(particles: Columns, edge: float) -> dict[str, NDArray]:
+    r"""Return the grain-wall contacts of a state.
+
+    .. math:: \delta = R - (L/2 - \mathbf{n} \cdot \mathbf{x})
 
     Parameters
     ----------
     particles : mapping of columns
         A frame of the particle dump, sorted by id: x, y, z, radius [m], v_wall_fx, -fy, -fz [N].
     edge : float
-        Edge of the cell [m].
+        L of the cell, which lies about the origin [m].
 
     Returns
     -------
     dict of ndarray, shape (W,)
         i (from 0), wall ("-x" ... "+z"); direction_x, direction_y and direction_z, of unit length
-        from the grain to the wall [-]; overlap_m, normal_force_N.
+        from the grain to the wall, n [-]; overlap_m, normal_force_N.
+
+    Examples
+    --------
+    >>> grain = {"x": -1.5, "y": 0.0, "z": 0.0, "radius": 1.0,
+    ...          "v_wall_fx": 3.0, "v_wall_fy": 0.0, "v_wall_fz": 0.0}
+    >>> walls = wall_contacts({name: np.array([value]) for name, value in grain.items()}, 4.0)
+    >>> [walls[name].tolist() for name in ("wall", "direction_x", "overlap_m", "normal_force_N")]
+    [['-x'], [-1.0], [0.5], [3.0]]
     """
-    names = (
-        "i",
-        "wall",
-        "direction_x",
-        "direction_y",
-        "direction_z",
-        "overlap_m",
-        "normal_force_N",
-    )
+    directions = [f"direction_{axis}" for axis in "xyz"]
+    names = ("i", "wall", *directions, "overlap_m", "normal_force_N")
     columns: dict[str, list] = {name: [] for name in names}
     radius = np.asarray(particles["radius"])
     for axis in "xyz":
@@ -136,105 +174,43 @@ def wall_contacts(particles, edge):
         side = np.where(force[touching] > 0, -1, 1)
         columns["i"].append(touching)
         columns["wall"].append(np.where(side < 0, f"-{axis}", f"+{axis}"))
-        for other in "xyz":
-            columns[f"direction_{other}"].append(np.where(other == axis, side, 0).astype(float))
+        for name in directions:
+            columns[name].append(np.where(name.endswith(axis), side, 0).astype(float))
         columns["overlap_m"].append(radius[touching] - (edge / 2.0 - side * place[touching]))
         columns["normal_force_N"].append(np.abs(force[touching]))
     return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 
-def path_row(scalars, particles, contacts, walls, *, first_edge, law, periodic):
-    """Return the row of `path.csv` of a state.
+def law_error(
+    contacts: Columns, walls: Columns, radii: NDArray, law: LinearContact | HertzContact
+) -> float:
+    r"""Return how far the forces are from those of the contact law at the overlaps of the state.
+
+    .. math:: \frac{\max |F - F(\delta, R^*)|}{\max(F_0, \max F)}
 
     Parameters
     ----------
-    scalars : mapping
-        The state's line of `states.csv` as in.compress writes it.
-    particles : mapping of columns
-        Its frame of the particle dump, sorted by id.
-    contacts, walls : dict
-        From `state_contacts` and `wall_contacts`.
-    first_edge : float
-        Edge of the cell before loading [m].
-    law : contact_law.LinearContact or HertzContact
-    periodic : bool
-
-    Returns
-    -------
-    dict
-        Names carry their units; strains and stress are positive in compression.
-    """
-    edge, work = float(scalars["edge"]), float(scalars["work"])
-    volume = cube(edge)
-    radius = np.asarray(particles["radius"])
-    grains = radius.size
-    solid = solid_volume(radius)
-    floor = force_floor(radius, law)
-    force = contacts["normal_force_N"]
-    at_wall = np.bincount(walls["i"], minlength=grains)
-    wall_distance = radius[walls["i"]] - walls["overlap_m"]
-    i, j = contacts["i"], contacts["j"]
-    loose = rattlers(i, j, grains, at_wall)
-    stress = mean_stress(
-        contacts["branch_length_m"], force, volume, wall_distance, walls["normal_force_N"]
-    )
-    on_walls = walls["normal_force_N"].sum() / (6.0 * edge**2)
-    # At a plane wall the reduced radius is the grain's own.
-    at_walls = law.energy(walls["normal_force_N"], radius[walls["i"]]).sum()
-    energy = contacts["energy_J"].sum() + at_walls
-    mean_force = float(force.mean()) if force.size else 0.0
-    # sqrt(rho_s/P) times the residual speed; without stress the number has no meaning.
-    twice_kinetic = 2.0 * float(scalars["kinetic_energy"])
-    inertial = np.sqrt(twice_kinetic / (solid * stress)) if mean_force > floor else np.nan
-    smaller = np.minimum(contacts["radius_i_m"], contacts["radius_j_m"])
-    overlap_ratio = contacts["overlap_m"] / smaller
-    median, most = np.quantile(overlap_ratio, (0.5, 0.95)) if force.size else (0.0, 0.0)
-    return {
-        "state": int(scalars["state"]),
-        "linear_strain": 1.0 - edge / first_edge,
-        "volumetric_strain": 1.0 - volume / cube(first_edge),
-        "solid_fraction": solid / volume,
-        "void_ratio": volume / solid - 1.0,
-        "volume_m3": volume,
-        "mean_stress_Pa": stress,
-        "boundary_stress_Pa": float(scalars["pair_pressure"]) if periodic else on_walls,
-        "elastic_energy_J": energy,
-        "work_J": work,
-        "dissipated_J": work - energy,
-        "coordination_number": coordination_number(force.size, grains),
-        "mechanical_coordination_number": mechanical_coordination_number(i, j, loose, at_wall),
-        "rattler_fraction": float(loose.mean()),
-        "mean_normal_force_N": mean_force,
-        "carries_load": mean_force > floor,
-        "unbalanced_force_ratio": unbalanced_force_ratio(
-            np.column_stack([particles[f"f{axis}"] for axis in "xyz"]), force, floor
-        ),
-        "inertial_number": inertial,
-        "median_overlap_ratio": float(median),
-        "overlap_ratio_95": float(most),
-        "max_overlap_ratio": float(overlap_ratio.max(initial=0.0)),
-        "contact_law_error": law_error(contacts, walls, radius, law),
-        "escaped": int(scalars["escaped"]),
-        "lost": int(scalars["lost"]),
-        "force_evaluations": int(scalars["evaluations"]),
-    }
-
-
-def law_error(contacts, walls, radii, law):
-    """Return how far the forces are from those of the contact law at the overlaps found.
-
-    Parameters
-    ----------
-    contacts, walls : dict
+    contacts, walls : mapping of columns
         From `state_contacts` and `wall_contacts`.
     radii : ndarray, shape (N,)
-        [m]
-    law : contact_law.LinearContact or HertzContact
+        By id [m].
+    law : LinearContact or HertzContact
 
     Returns
     -------
     float
-        The largest difference over the largest force, or over the floor where that is smaller [-].
+        The largest difference over the largest force, or over `force_floor` where that is
+        larger [-].
+
+    Examples
+    --------
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> contacts = {name: np.zeros(0) for name in
+    ...             ("radius_i_m", "radius_j_m", "overlap_m", "normal_force_N")}
+    >>> walls = {"i": np.array([0]), "overlap_m": np.array([0.5]),
+    ...          "normal_force_N": np.array([4.0])}
+    >>> law_error(contacts, walls, np.array([1.0]), LinearContact(10.0))
+    0.25
     """
     reduced = reduced_radius(contacts["radius_i_m"], contacts["radius_j_m"])
     differences = np.concatenate(

@@ -2,9 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
 
 # Largest linear strain of a step [-]. docs/quality.md tells what each is good for, measured.
@@ -45,7 +48,17 @@ class Loading:
         return [float(value) for value in np.atleast_1d(self.value)]
 
     def end(self, initial_solid_fraction: float) -> float:
-        """Return the solid fraction at the end, or about what a stress leads to [-].
+        """Return the solid fraction at the end, or about what a stress leads to.
+
+        Parameters
+        ----------
+        initial_solid_fraction : float
+            Of the loose packing [-].
+
+        Returns
+        -------
+        float
+            [-]
 
         Examples
         --------
@@ -54,10 +67,11 @@ class Loading:
         """
         if self.stresses:
             return _LOADED
-        return final_solid_fraction(initial_solid_fraction, self.target, self.value)
+        value = np.asarray(self.value, dtype=float).item()
+        return final_solid_fraction(initial_solid_fraction, self.target, value)
 
 
-def final_solid_fraction(initial_solid_fraction, target, value):
+def final_solid_fraction(initial_solid_fraction: float, target: str, value: float) -> float:
     r"""Return the solid fraction at the end of a path to a strain or to a solid fraction.
 
     .. math:: \phi = \phi_0/(1-\epsilon_l)^3 = \phi_0/(1-\epsilon_v)
@@ -68,11 +82,12 @@ def final_solid_fraction(initial_solid_fraction, target, value):
         phi_0 [-].
     target : {"edge_reduction", "volume_reduction", "solid_fraction"}
     value : float
-        [-]
+        epsilon_l of the edge, epsilon_v of the volume, or phi itself [-].
 
     Returns
     -------
     float
+        phi [-]. Grains keep their volume: overlaps are counted twice.
 
     Examples
     --------
@@ -86,8 +101,14 @@ def final_solid_fraction(initial_solid_fraction, target, value):
     return value
 
 
-def loading_targets(radii, initial_solid_fraction, loading):
-    """Return what the states of a path are reached by: `edge` [m] or `stress` [Pa], and how many.
+def loading_targets(
+    radii: ArrayLike, initial_solid_fraction: float, loading: Loading
+) -> tuple[Literal["edge", "stress"], list[float]]:
+    r"""Return what the states of a path are reached by, edges of the cell or mean stresses.
+
+    .. math:: L_k = L_a + \frac{k}{n} (L_e - L_a), \quad k = 1 \ldots n
+
+    L_a and L_e are the edges at the solid fractions of the approach and of the end.
 
     Parameters
     ----------
@@ -101,7 +122,7 @@ def loading_targets(radii, initial_solid_fraction, loading):
     -------
     control : {"edge", "stress"}
     targets : list of float
-        In the order of the path; with unloading the same ones back, but for the last.
+        In the order of the path [m] or [Pa]; with unloading the same ones back, but for the last.
 
     Examples
     --------
@@ -110,7 +131,8 @@ def loading_targets(radii, initial_solid_fraction, loading):
     >>> control, [round(edge, 4) for edge in edges]
     ('edge', [1.9232, 1.8155, 1.9232])
     """
-    control, targets = "stress", loading.stresses
+    control: Literal["edge", "stress"] = "stress"
+    targets = loading.stresses
     if not targets:
         first = cube_edge(radii, loading.approach_solid_fraction)
         last, states = cube_edge(radii, loading.end(initial_solid_fraction)), loading.states
@@ -119,8 +141,19 @@ def loading_targets(radii, initial_solid_fraction, loading):
     return control, targets + (targets[-2::-1] if loading.unloading else [])
 
 
-def strain_step(quality, refinement=1):
-    """Return the largest linear strain of a step, of a quality or refined by a factor [-].
+def strain_step(quality: str, refinement: float = 1) -> float:
+    """Return the largest linear strain of a step.
+
+    Parameters
+    ----------
+    quality : {"draft", "standard", "fine"}
+    refinement : float
+        By how much smaller the steps are than those of the quality [-].
+
+    Returns
+    -------
+    float
+        [-]
 
     Examples
     --------
@@ -130,10 +163,16 @@ def strain_step(quality, refinement=1):
     return STRAIN_STEPS[quality] / refinement
 
 
-def expected_overlap_ratio(mean_stress, radius, law):
+def expected_overlap_ratio(
+    mean_stress: float, radius: float, law: LinearContact | HertzContact
+) -> float:
     r"""Return about how deep grains of one radius are pressed together under a mean stress.
 
-    .. math:: F = \frac{4 \pi P R^2}{\phi \kappa}, \quad \phi = 0.64,\ \kappa = 6
+    .. math:: \frac{\delta}{R} = \left(\frac{F}{F(R, R/2)}\right)^{1/m}, \quad
+        F = \frac{4 \pi P R^2}{\phi \kappa}, \quad \phi = 0.64,\ \kappa = 6
+
+    F(R, R/2) is the law at an overlap of R and the reduced radius of two such grains, m its
+    exponent. It is an estimate, for overlaps that are small.
 
     Parameters
     ----------
@@ -141,7 +180,7 @@ def expected_overlap_ratio(mean_stress, radius, law):
         [Pa]
     radius : float
         [m]
-    law : contact_law.LinearContact or HertzContact
+    law : LinearContact or HertzContact
 
     Returns
     -------
@@ -159,8 +198,16 @@ def expected_overlap_ratio(mean_stress, radius, law):
     return float((force / at_one_radius) ** (1.0 / law.exponent))
 
 
-def planned_steps(loading, initial_solid_fraction, strain_step, overlap=0.0):
-    """Return how many strain steps a loading takes, and how many states it saves.
+def planned_steps(
+    loading: Loading, initial_solid_fraction: float, strain_step: float, overlap: float = 0.0
+) -> tuple[int, int]:
+    r"""Return how many strain steps a loading takes, and how many states it saves.
+
+    .. math:: n \left\lceil \frac{\ln(\phi_e/\phi_a)}{3 n\, s} \right\rceil, \qquad
+        \left\lceil \frac{\ln(\phi_e/\phi_a)}{3 s} + \frac{\delta}{s R} \right\rceil + 4 n
+
+    The first to n states at strains, the second to n stresses; s is the strain of a step, phi_a
+    and phi_e the solid fractions of the approach and of the end.
 
     To strains both are known. To stresses it is an estimate: as far as grains of an overlap
     ratio would go, and some steps more to meet each stress.

@@ -1,6 +1,9 @@
 """A grid of cells in which spheres of similar radius find those near a place."""
 
+from collections.abc import Iterator
+
 import numpy as np
+from numpy.typing import NDArray
 
 # Grid entries compared at once, which bounds the memory.
 _ENTRIES_AT_ONCE = 2**20
@@ -30,19 +33,27 @@ class CellGrid:
     [(0, 7)]
     """
 
-    def __init__(self, edge, periodic, largest_radius, expected):
+    def __init__(self, edge: float, periodic: bool, largest_radius: float, expected: int) -> None:
         self.edge, self.periodic, self.largest_radius = edge, periodic, largest_radius
         # Cells of a diameter, but in a sparse class not many more than it has spheres.
         most = np.ceil(np.cbrt(2.0 * expected))
-        self.n = int(np.clip(edge / (2.02 * largest_radius), 1, most))
-        self.table = np.full((self.n**3, 4), EMPTY, dtype=np.int32)
-        self.count = np.zeros(self.n**3, dtype=np.int32)
+        self.cells = int(np.clip(edge / (2.02 * largest_radius), 1, most))
+        self.table = np.full((self.cells**3, 4), EMPTY, dtype=np.int32)
+        self.count = np.zeros(self.cells**3, dtype=np.int32)
         self.filled = False
 
-    def add(self, numbers, centres):
-        """List spheres by their numbers, shape (M,), at their centres, shape (M, 3) [m]."""
-        cell = np.clip((centres / self.edge + 0.5) * self.n, 0, self.n - 1).astype(int)
-        cell = np.ravel_multi_index(cell.T, (self.n,) * 3)
+    def add(self, numbers: NDArray, centres: NDArray) -> None:
+        """List spheres in the cells of their centres.
+
+        Parameters
+        ----------
+        numbers : ndarray of int, shape (M,)
+            What they are called by, below `EMPTY`.
+        centres : ndarray, shape (M, 3)
+            [m]
+        """
+        cell = np.clip((centres / self.edge + 0.5) * self.cells, 0, self.cells - 1).astype(int)
+        cell = np.ravel_multi_index(cell.T, (self.cells,) * 3)
         order = np.argsort(cell, kind="stable")
         cell = cell[order]
         # How many of the same cell come before.
@@ -54,21 +65,40 @@ class CellGrid:
         np.maximum.at(self.count, cell, slot + 1)
         self.filled = True
 
-    def near(self, places, radius, before=EMPTY):
-        """Yield pairs of a place and a sphere near it, of a number below `before`, in portions."""
+    def near(
+        self, places: NDArray, radius: float, before: int | NDArray = EMPTY
+    ) -> Iterator[tuple[NDArray, NDArray]]:
+        """Yield pairs of a place and a sphere near it, in portions.
+
+        Parameters
+        ----------
+        places : ndarray, shape (P, 3)
+            [m]
+        radius : float
+            All spheres that one of this radius could touch from a place are met, and more [m].
+        before : int or ndarray of int, shape (P,)
+            Only spheres of a lower number, of each place's own where it is an array.
+
+        Yields
+        ------
+        place, sphere : ndarray of int, shape (m,)
+            Row of the place, and number of the sphere.
+        """
         # A little more than needed, so that rounding loses no cell.
-        reach = (self.largest_radius + radius) / self.edge * self.n * (1.0 + 1e-6)
-        span = min(int(np.ceil(2.0 * reach)) + 1, self.n)
+        reach = (self.largest_radius + radius) / self.edge * self.cells * (1.0 + 1e-6)
+        span = min(int(np.ceil(2.0 * reach)) + 1, self.cells)
         entries = span**3 * self.table.shape[1]
         rows = max(1, _ENTRIES_AT_ONCE // entries)
         for start in range(0, len(places), rows):
             part = slice(start, start + rows)
-            low = np.floor((places[part] / self.edge + 0.5) * self.n - reach).astype(int)
+            low = np.floor((places[part] / self.edge + 0.5) * self.cells - reach).astype(int)
             if not self.periodic:
-                low = np.clip(low, 0, self.n - span)
-            x, y, z = np.moveaxis((low[:, :, None] + np.arange(span)) % self.n, 1, 0)
-            cell = (x[:, :, None] * self.n + y[:, None, :])[..., None] * self.n + z[:, None, None]
+                low = np.clip(low, 0, self.cells - span)
+            x, y, z = np.moveaxis((low[:, :, None] + np.arange(span)) % self.cells, 1, 0)
+            cell = (x[:, :, None] * self.cells + y[:, None, :])[..., None] * self.cells + z[
+                :, None, None
+            ]
             listed = self.table[cell.reshape(-1)].reshape(len(low), -1)
-            limit = before if np.isscalar(before) else before[part, None]
-            found = np.flatnonzero(listed < limit)
-            yield start + found // entries, listed.reshape(-1)[found]
+            limit = before[part, None] if isinstance(before, np.ndarray) else before
+            entry = np.flatnonzero(listed < limit)
+            yield start + entry // entries, listed.reshape(-1)[entry]

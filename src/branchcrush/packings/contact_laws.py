@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from branchcrush.packings.geometry import Real
+
 # Overlap over the smaller radius from which on a contact law of small overlaps is stretched [-].
 OVERLAP_FLAG = 0.05
 
@@ -38,12 +40,38 @@ class LinearContact:
     # F ~ overlap^m, and so the mean stress ~ (phi - phi_J)^m close to jamming.
     exponent = 1.0
 
-    def force(self, overlap, reduced_radius):
-        """Return the repulsive force [N] at an overlap [m]; the radius [m] does not matter."""
+    def force(self, overlap: Real, reduced_radius: Real) -> Real:
+        """Return the repulsive force at an overlap.
+
+        Parameters
+        ----------
+        overlap : float or ndarray, shape (M,)
+            delta [m].
+        reduced_radius : float or ndarray, shape (M,)
+            R* [m]; it does not matter.
+
+        Returns
+        -------
+        float or ndarray, shape (M,)
+            F [N].
+        """
         return self.stiffness * overlap
 
-    def energy(self, force, reduced_radius):
-        """Return the elastic energy [J] stored under a force [N]; the radius does not matter."""
+    def energy(self, force: Real, reduced_radius: Real) -> Real:
+        """Return the elastic energy stored under a force.
+
+        Parameters
+        ----------
+        force : float or ndarray, shape (M,)
+            F, not negative [N].
+        reduced_radius : float or ndarray, shape (M,)
+            R* [m]; it does not matter.
+
+        Returns
+        -------
+        float or ndarray, shape (M,)
+            E [J].
+        """
         return force**2 / (2.0 * self.stiffness)
 
 
@@ -52,6 +80,8 @@ class HertzContact:
     r"""Hertz contact of elastic spheres.
 
     .. math:: F = K \sqrt{R^*}\, \delta^{3/2}, \quad E = \tfrac25 F \delta
+
+    It holds for overlaps that are small beside the radii: `OVERLAP_FLAG`.
 
     Parameters
     ----------
@@ -74,7 +104,7 @@ class HertzContact:
     exponent = 1.5
 
     @classmethod
-    def of_material(cls, young_modulus, poisson_ratio):
+    def of_material(cls, young_modulus: float, poisson_ratio: float) -> "HertzContact":
         r"""Return the contact of two grains of one material.
 
         .. math:: K = \tfrac43 E^* = \frac{2 E}{3 (1 - \nu^2)}
@@ -86,6 +116,10 @@ class HertzContact:
         poisson_ratio : float
             nu [-].
 
+        Returns
+        -------
+        HertzContact
+
         Examples
         --------
         >>> HertzContact.of_material(3.0, 0.5).stiffness
@@ -93,12 +127,38 @@ class HertzContact:
         """
         return cls(2.0 * young_modulus / (3.0 * (1.0 - poisson_ratio**2)))
 
-    def force(self, overlap, reduced_radius):
-        """Return the repulsive force [N] at an overlap [m] of a reduced radius [m]."""
+    def force(self, overlap: Real, reduced_radius: Real) -> Real:
+        """Return the repulsive force at an overlap; without overlap it is 0.
+
+        Parameters
+        ----------
+        overlap : float or ndarray, shape (M,)
+            delta [m].
+        reduced_radius : float or ndarray, shape (M,)
+            R* [m]; of a grain at a wall its radius.
+
+        Returns
+        -------
+        float or ndarray, shape (M,)
+            F [N].
+        """
         return self.stiffness * np.sqrt(reduced_radius) * np.maximum(overlap, 0.0) ** 1.5
 
-    def energy(self, force, reduced_radius):
-        """Return the elastic energy [J] stored under a force [N] at a reduced radius [m]."""
+    def energy(self, force: Real, reduced_radius: Real) -> Real:
+        """Return the elastic energy stored under a force.
+
+        Parameters
+        ----------
+        force : float or ndarray, shape (M,)
+            F, not negative [N].
+        reduced_radius : float or ndarray, shape (M,)
+            R* [m]; of a grain at a wall its radius.
+
+        Returns
+        -------
+        float or ndarray, shape (M,)
+            E [J].
+        """
         overlap = (force / (self.stiffness * np.sqrt(reduced_radius))) ** (2.0 / 3.0)
         return 0.4 * force * overlap
 
@@ -143,19 +203,19 @@ def contact_law(law: str, **parameters: float) -> LinearContact | HertzContact:
     return CONTACT_LAWS[law].of_material(**parameters)
 
 
-def reduced_radius(radius, other):
+def reduced_radius(radius: Real, other: Real) -> Real:
     r"""Return R* of two grains.
 
     .. math:: R^* = \frac{R_1 R_2}{R_1 + R_2}
 
     Parameters
     ----------
-    radius, other : array_like
-        [m]
+    radius, other : float or ndarray, shape (M,)
+        R_1 and R_2 [m].
 
     Returns
     -------
-    array_like
+    float or ndarray, shape (M,)
         [m]
 
     Examples

@@ -1,13 +1,16 @@
 """Who touches whom: coordination, rattlers, stress and balance of a packing at rest."""
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 # A sphere in three dimensions is held in place by at least four contacts.
 STABLE_CONTACTS = 4
 
 
-def contact_number(i, j, grains):
-    """Return the number of contacts of each grain.
+def contact_number(i: ArrayLike, j: ArrayLike, grains: int) -> NDArray:
+    r"""Return the number of contacts of each grain.
+
+    .. math:: c_g = \sum_c (\delta_{g i_c} + \delta_{g j_c})
 
     Parameters
     ----------
@@ -28,7 +31,7 @@ def contact_number(i, j, grains):
     return np.bincount(i, minlength=grains) + np.bincount(j, minlength=grains)
 
 
-def coordination_number(contacts, grains):
+def coordination_number(contacts: int, grains: int) -> float:
     r"""Return the mean coordination number over **all** grains, rattlers included.
 
     .. math:: \kappa = 2 M / N
@@ -54,7 +57,9 @@ def coordination_number(contacts, grains):
     return 2.0 * contacts / grains
 
 
-def rattlers(i, j, grains, wall_contacts=None):
+def rattlers(
+    i: ArrayLike, j: ArrayLike, grains: int, wall_contacts: ArrayLike | None = None
+) -> NDArray:
     """Return which grains carry no load: fewer than four contacts, removed until none is left.
 
     Parameters
@@ -75,20 +80,22 @@ def rattlers(i, j, grains, wall_contacts=None):
     >>> rattlers([0], [1], 3).tolist()
     [True, True, True]
     """
-    i, j = np.asarray(i, dtype=int), np.asarray(j, dtype=int)
-    number = contact_number(i, j, grains)
+    first, second = np.asarray(i, dtype=int), np.asarray(j, dtype=int)
+    number = contact_number(first, second, grains)
     if wall_contacts is not None:
         number += np.asarray(wall_contacts)
     while True:
         loose = number < STABLE_CONTACTS
-        lost = loose[i] | loose[j]
+        lost = loose[first] | loose[second]
         if not lost.any():
             return loose
-        number -= contact_number(i[lost], j[lost], grains)
-        i, j = i[~lost], j[~lost]
+        number -= contact_number(first[lost], second[lost], grains)
+        first, second = first[~lost], second[~lost]
 
 
-def mechanical_coordination_number(i, j, loose, wall_contacts=None):
+def mechanical_coordination_number(
+    i: ArrayLike, j: ArrayLike, loose: ArrayLike, wall_contacts: ArrayLike | None = None
+) -> float:
     r"""Return the mean number of contacts of the grains that are not rattlers.
 
     .. math:: \kappa^* = (2 M^* + W^*) / N^*
@@ -123,7 +130,13 @@ def mechanical_coordination_number(i, j, loose, wall_contacts=None):
     return float((2 * held.sum() + walls) / (~loose).sum())
 
 
-def mean_stress(branch_length, normal_force, volume, wall_distance=(), wall_force=()):
+def mean_stress(
+    branch_length: ArrayLike,
+    normal_force: ArrayLike,
+    volume: float,
+    wall_distance: ArrayLike = (),
+    wall_force: ArrayLike = (),
+) -> float:
     r"""Return the mean stress, compression positive, from the branches of a packing at rest.
 
     .. math:: P = \frac{1}{3V} \left(\sum_c F_c l_c + \sum_w F_w d_w\right)
@@ -151,7 +164,9 @@ def mean_stress(branch_length, normal_force, volume, wall_distance=(), wall_forc
     return float((pairs + np.dot(wall_distance, wall_force)) / (3.0 * volume))
 
 
-def unbalanced_force_ratio(net_force, normal_force, force_floor):
+def unbalanced_force_ratio(
+    net_force: ArrayLike, normal_force: ArrayLike, force_floor: float
+) -> float:
     r"""Return the mean net force on the grains over the mean contact force.
 
     .. math:: \overline{|f_i|} \,/\, \max(\overline{F_c}, F_0)
@@ -175,5 +190,6 @@ def unbalanced_force_ratio(net_force, normal_force, force_floor):
     >>> unbalanced_force_ratio([[0.0, 3.0, 4.0]], [10.0], 1.0)
     0.5
     """
-    contact = max(np.mean(normal_force) if len(normal_force) else 0.0, force_floor)
+    normal_force = np.asarray(normal_force, dtype=float)
+    contact = max(normal_force.mean() if normal_force.size else 0.0, force_floor)
     return float(np.linalg.norm(net_force, axis=1).mean() / contact)

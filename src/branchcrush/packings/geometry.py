@@ -1,7 +1,12 @@
 """Volumes of spheres and of the cubic cell that holds them."""
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+# A number, or an array of them: what goes in comes out.
+Real = TypeVar("Real", float, NDArray)
 
 # Volume of a sphere of radius 1: times a moment <R^3> it is a mean volume of grains.
 UNIT_SPHERE = 4.0 / 3.0 * np.pi
@@ -57,17 +62,19 @@ def solid_volume(radii: ArrayLike) -> float:
     return float(UNIT_SPHERE * np.sum(np.asarray(radii, dtype=float) ** 3))
 
 
-def cube(edge):
-    """Return the volume of a cube, to the same last bit for a number and for an array.
+def cube(edge: Real) -> Real:
+    r"""Return the volume of a cube, to the same last bit for a number and for an array.
+
+    .. math:: V = L^3
 
     Parameters
     ----------
-    edge : float or ndarray
-        [m]
+    edge : float or ndarray, shape (n,)
+        L [m].
 
     Returns
     -------
-    float or ndarray
+    float or ndarray, shape (n,)
         [m3]
 
     Examples
@@ -88,7 +95,7 @@ def cube_edge(radii: ArrayLike, solid_fraction: float) -> float:
     radii : array_like, shape (N,)
         [m]
     solid_fraction : float
-        phi [-].
+        phi, above 0 [-].
 
     Returns
     -------

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,11 +17,19 @@ VECTOR_COLUMNS = ("branch_x", "branch_y", "branch_z")
 WALL_COLUMNS = ("state", "i", "overlap_m", "normal_force_N")
 
 
+class Table(Protocol):
+    """What columns are taken from by name: a mapping of arrays, or a DataFrame."""
+
+    def __getitem__(self, name: str, /) -> Any: ...
+
+    def __contains__(self, name: Any, /) -> bool: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Network:
     """Grains, contacts between them, and contacts with walls; of one packing in one state.
 
-    Contact numbers and rattlers are found once and kept.
+    Contact numbers and rattlers are sought once and kept.
     """
 
     radius: NDArray  # of each grain, shape (N,) [m]
@@ -70,7 +79,7 @@ class Network:
         return self.radius_i + self.radius_j
 
 
-def state_network(radii: ArrayLike, contacts, walls, state: int) -> Network:
+def state_network(radii: ArrayLike, contacts: Table, walls: Table, state: int) -> Network:
     """Return the network of a packing in one state.
 
     Parameters
@@ -88,6 +97,11 @@ def state_network(radii: ArrayLike, contacts, walls, state: int) -> Network:
     -------
     Network
 
+    Raises
+    ------
+    ValueError
+        When a state comes after a later one in a table.
+
     Examples
     --------
     >>> contacts = {"state": [0, 1], "i": [0, 0], "j": [1, 1], "overlap_m": [0.1, 0.2],
@@ -100,7 +114,9 @@ def state_network(radii: ArrayLike, contacts, walls, state: int) -> Network:
     return next(state_networks(radii, contacts, walls, [state]))
 
 
-def state_networks(radii: ArrayLike, contacts, walls, states: Iterable[int]) -> Iterator[Network]:
+def state_networks(
+    radii: ArrayLike, contacts: Table, walls: Table, states: Iterable[int]
+) -> Iterator[Network]:
     """Yield the network of a packing in each of some states, one at a time.
 
     Parameters
@@ -113,6 +129,11 @@ def state_networks(radii: ArrayLike, contacts, walls, states: Iterable[int]) -> 
     ------
     Network
         Its arrays are views of the columns: a table need not be in memory twice.
+
+    Raises
+    ------
+    ValueError
+        When a state comes after a later one in a table.
 
     Examples
     --------
@@ -175,5 +196,5 @@ def state_rows(column: ArrayLike, states: Iterable[int]) -> list[slice]:
     return [slice(int(start), int(end)) for start, end in zip(first, last, strict=True)]
 
 
-def _columns(table, names):
+def _columns(table: Table, names: Iterable[str]) -> dict[str, NDArray]:
     return {name: np.asarray(table[name]) for name in names}

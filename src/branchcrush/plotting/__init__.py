@@ -1,1 +1,21 @@
-"""Figures. Each function draws one on an Axes and returns it; none saves a file."""
+"""Figures: from result files to pictures, each alone or all by the workflow.
+
+`packing_figures`, `fit_figures`, `network_figures`
+    One function a figure of a sample, as `draw_energy_split(path, dpi, table, fit)`: it takes what
+    `files.tables.read_table` and `read_json` read, writes one PNG file and returns the Figure.
+`study_figures`
+    The same for the figures of all samples together.
+`gradings`, `packings`, `loading`, `certificate`, `energy`, `predictors`, `branches`, `crushing`
+    The panels of a sample: `plot_...` draws one on an Axes and returns it; none saves a file. Who
+    carries what is in `shielding` and `forces`.
+`study`, `study_networks`
+    The panels of all samples.
+`style`, `intervals`
+    How every figure looks: `figure`, `STATES`, colours and sizes; how an estimate with its interval
+    is drawn.
+
+A new panel is a function `plot_...` of the module of its subject, and a line in a function
+`draw_...`. A new figure is a function `draw_...`, its name in `workflow/rules/report.smk`, a line
+in a script of that rule, and its place in a page of `workflow/report`. How predictors and models
+look is said where they are registered, not here.
+"""

@@ -1,12 +1,29 @@
 """Who touches whom: contact numbers by radius, pairs of radii, and predictions of the lengths."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from branchcrush.branches.predictions import PREDICTIONS
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
+from branchcrush.files.tables import Table
+from branchcrush.plotting.intervals import draw_band
+from branchcrush.plotting.style import (
+    FAINT,
+    MEASURED,
+    MODEL,
+    OTHER,
+    STATES,
+    above_jamming,
+    axes,
+    reason,
+    widen,
+)
 
 
-def plot_contact_numbers(table, summary, radius_max, ax=None):
+def plot_contact_numbers(
+    table: Table, summary: Mapping, radius_max: float, ax: Axes | None = None
+) -> Axes:
     """Draw the contact number by radius near jamming and at the end, beside the models.
 
     Parameters
@@ -24,7 +41,9 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
     Axes
     """
     ax = axes(ax)
-    for where, color in (("near_jamming", MEASURED), ("end", "#6f9bc4")):
+    for where, (name, color) in STATES.items():
+        if where not in summary:  # one state is the end
+            continue
         state = summary[where]
         rows = table[table["state"] == state["state"]]
         low, high = (rows[f"contact_number_{part}"] for part in ("low", "high"))
@@ -38,7 +57,7 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
             fmt="o",
             color=color,
             lw=0.8,
-            label=rf"measured, $\phi$ = {state['solid_fraction']:.3f}",
+            label=rf"{name}, $\phi$ = {state['solid_fraction']:.3f}",
         )
     for name in ("mean_neighbour", "self_consistent", "parking"):
         column = f"contact_number_{name}"
@@ -51,7 +70,7 @@ def plot_contact_numbers(table, summary, radius_max, ax=None):
     return ax
 
 
-def plot_pairs(table, summary, radius_max, ax=None):
+def plot_pairs(table: Table, summary: Mapping, radius_max: float, ax: Axes | None = None) -> Axes:
     """Draw how often classes of radius touch, over what their contact numbers alone would give.
 
     Parameters
@@ -97,7 +116,7 @@ def plot_pairs(table, summary, radius_max, ax=None):
     return ax
 
 
-def plot_distances(table, ax=None):
+def plot_distances(table: Table, ax: Axes | None = None) -> Axes:
     """Draw how far each prediction of the branch lengths is off along the loading.
 
     Parameters
@@ -127,10 +146,10 @@ def plot_distances(table, ax=None):
     low, high = ax.get_ylim()
     ax.set_ylim(low, high * (high / low) ** 0.9)
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
-def plot_mean_lengths(table, radius_max, ax=None):
+def plot_mean_lengths(table: Table, radius_max: float, ax: Axes | None = None) -> Axes:
     """Draw the mean branch length along the loading, measured and predicted.
 
     Parameters
@@ -154,9 +173,9 @@ def plot_mean_lengths(table, radius_max, ax=None):
             mean = measured["measured_mean_length_m"] / radius_max
             ax.plot(x[rows], mean, "o-", color=color, label="measured")
             limits = (measured[f"measured_mean_length_{part}_m"] for part in ("low", "high"))
-            ax.fill_between(
-                x[rows], *(limit / radius_max for limit in limits), color=color, alpha=0.2, lw=0
-            )
+            low, high = (limit / radius_max for limit in limits)
+            interval = {"length": mean, "length_low": low, "length_high": high}
+            draw_band(ax, x[rows], interval, "length", color)
         elif rows.any():
             mean = table.loc[rows, "mean_length_m"].iloc[0] / radius_max
             ax.axhline(mean, color=color, lw=1.0, ls="--")
@@ -165,28 +184,12 @@ def plot_mean_lengths(table, radius_max, ax=None):
     ax.set_ylim(low, high + 0.25 * (high - low))
     ax.plot([], [], "--", color=FAINT, label="predicted, in the colours of the distances")
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
-def above_jamming(table):
-    """Return what to draw a path against, and its label: phi - phi_J, or phi where it is unknown.
-
-    Parameters
-    ----------
-    table : DataFrame
-        With columns solid_fraction and solid_fraction_above_jamming.
-
-    Returns
-    -------
-    Series, str
-    """
-    above = table["solid_fraction_above_jamming"]
-    if above.isna().any():
-        return table["solid_fraction"], r"solid fraction $\phi$ [-]"
-    return above, r"solid fraction above jamming $\phi - \phi_J$ [-]"
-
-
-def plot_branch_lengths(table, statistics, radius_max, ax=None):
+def plot_branch_lengths(
+    table: Table, statistics: Mapping, radius_max: float, ax: Axes | None = None
+) -> Axes:
     """Draw the measured distribution of branch lengths beside Eq. 4 (Fig. 7).
 
     Parameters

@@ -1,14 +1,18 @@
 """The certificate: how far every saved state is from its limits, and where each packing jams."""
 
-import numpy as np
+from collections.abc import Mapping
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason
+import numpy as np
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reason, widen
 
 _PHI = r"solid fraction $\phi$ [-]"
 _LOOSE = "no saved state carries load"
 
 
-def plot_rest(states, limits, ax=None):
+def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None) -> Axes:
     """Draw what tells whether the states are at rest, each with its limit.
 
     Parameters
@@ -39,10 +43,10 @@ def plot_rest(states, limits, ax=None):
     low, high = ax.get_ylim()
     ax.set_ylim(low, 1e4 * high)
     ax.legend(loc="upper left")
-    return ax
+    return widen(ax)
 
 
-def plot_overlaps(states, flag, ax=None):
+def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
     """Draw the overlaps over the smaller radius, with the value from which they are flagged.
 
     Parameters
@@ -72,10 +76,10 @@ def plot_overlaps(states, flag, ax=None):
     low, high = ax.get_ylim()
     ax.set_ylim(low, 30 * high)
     ax.legend(loc="upper left", ncols=2)
-    return ax
+    return widen(ax)
 
 
-def plot_dissipation(states, ax=None):
+def plot_dissipation(states: Table, ax: Axes | None = None) -> Axes:
     """Draw the share of the work that is dissipated, which never is negative.
 
     Parameters
@@ -99,10 +103,10 @@ def plot_dissipation(states, ax=None):
             ax.plot(part["solid_fraction"], share, ".", color=color, ms=3, label=leg)
     ax.set(xlabel=_PHI, ylabel="work dissipated so far [%]", ylim=(0, None))
     ax.legend(loc="best")
-    return ax
+    return widen(ax)
 
 
-def plot_jamming(jamming, ax=None):
+def plot_jamming(jamming: Table, ax: Axes | None = None) -> Axes:
     """Draw the jamming point of every packing with its uncertainty, in and back.
 
     Parameters

@@ -1,12 +1,17 @@
 """The crushing model on the measured elastic energy."""
 
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
 
 _SHADES = ("#08306b", "#2171b5", "#6baed6", "#fd8d3c", "#d94801")
 _STRAIN = r"volumetric strain from jamming $\epsilon$ [%]"
 
 
-def plot_reference_energy(curves, ax=None):
+def plot_reference_energy(curves: Table, ax: Axes | None = None) -> Axes:
     """Draw the reference energy psi_r of Eq. 9 beside the whole elastic energy.
 
     Parameters
@@ -34,7 +39,7 @@ def plot_reference_energy(curves, ax=None):
     return ax
 
 
-def plot_family(curves, column, label, ax=None):
+def plot_family(curves: Table, column: str, label: str, ax: Axes | None = None) -> Axes:
     """Draw a quantity at fixed crushing C, and along the path on which C evolves.
 
     Parameters
@@ -70,7 +75,7 @@ def plot_family(curves, column, label, ax=None):
     return ax
 
 
-def plot_crushing(curves, summary, ax=None):
+def plot_crushing(curves: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the crushing parameter along loading and unloading.
 
     Parameters
@@ -100,7 +105,7 @@ def plot_crushing(curves, summary, ax=None):
     return ax
 
 
-def plot_driving_force(curves, ax=None):
+def plot_driving_force(curves: Table, ax: Axes | None = None) -> Axes:
     """Draw the driving force E_C against its resistance: crushing goes on where they are equal.
 
     Parameters
@@ -134,7 +139,7 @@ def plot_driving_force(curves, ax=None):
     return ax
 
 
-def plot_dissipation(curves, ax=None):
+def plot_dissipation(curves: Table, ax: Axes | None = None) -> Axes:
     """Draw work, stored and dissipated energy of the crushing model.
 
     Parameters

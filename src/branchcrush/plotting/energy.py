@@ -1,24 +1,28 @@
 """Figures 5 and 6 of the paper, and the exponent along the loading path."""
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
+from branchcrush.files.tables import Table
+from branchcrush.plotting.intervals import draw_band
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, above_jamming, axes, widen
 from branchcrush.statistics.intervals import interval_text
 
 # Bins with fewer branches are marked with their count.
 THIN = 100
 
 
-def plot_energy_split(table, fit, ax=None):
+def plot_energy_split(table: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function and its fitted power law (Fig. 5).
 
     Parameters
     ----------
     table : DataFrame
         `energy_split.csv`.
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -28,19 +32,13 @@ def plot_energy_split(table, fit, ax=None):
     ax = axes(ax)
     empty = int((table["branches"] == 0).sum())
     table = table[table["branches"] > 0]
-    x = table["branch_length_m"] / fit["reference_length_m"]
+    x = table["branch_length_m"] / fit.reference_length
     line = np.linspace(0.0, x.max() * 1.03, 200)
-    interval = interval_text(fit["exponent"], fit["exponent_low"], fit["exponent_high"])
-    if fit["exponent_low"] is not None:
-        ax.fill_between(
-            line,
-            line ** fit["exponent_low"],
-            line ** fit["exponent_high"],
-            color=MODEL,
-            alpha=0.2,
-            lw=0,
-        )
-    ax.plot(line, line ** fit["exponent"], color=MODEL, label=f"$(l/l_r)^n$, n = {interval}")
+    n = fit.exponent
+    if np.isfinite(n.low):
+        ax.fill_between(line, line**n.low, line**n.high, color=MODEL, alpha=0.2, lw=0)
+    text = f"$(l/l_r)^n$, n = {interval_text(*n)}"
+    ax.plot(line, line**n.estimate, color=MODEL, label=text)
     ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     _mark_thin(ax, x, table["f"], table["branches"], empty)
     ax.set(xlabel=r"branch length $l/l_r$ [-]", ylabel=r"energy split $f(l)$ [-]")
@@ -50,7 +48,7 @@ def plot_energy_split(table, fit, ax=None):
     return ax
 
 
-def plot_cubic(table, fit, ax=None):
+def plot_cubic(table: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the energy-split function against the cube of the length, with its R^2 (Fig. 6).
 
     Parameters
@@ -64,13 +62,13 @@ def plot_cubic(table, fit, ax=None):
     """
     ax = axes(ax)
     table = table[table["branches"] > 0]
-    x = (table["branch_length_m"] / fit["reference_length_m"]) ** 3
+    x = (table["branch_length_m"] / fit.reference_length) ** 3
     line = np.array([0.0, x.max() * 1.03])
     ax.plot(
         line,
-        fit["cubic_slope"] * line,
+        fit.cubic_slope * line,
         color=MODEL,
-        label=f"f = {fit['cubic_slope']:.3f} $(l/l_r)^3$, $R^2$ = {fit['cubic_r_squared']:.4f}",
+        label=f"f = {fit.cubic_slope:.3f} $(l/l_r)^3$, $R^2$ = {fit.cubic_r_squared:.4f}",
     )
     ax.plot(x, table["f"], "o", color=MEASURED, label=_seeds(fit))
     thin = table["branches"][table["branches"] < THIN]
@@ -84,15 +82,15 @@ def plot_cubic(table, fit, ax=None):
     return ax
 
 
-def plot_exponent_path(path, fit, ax=None):
+def plot_exponent_path(path: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the exponent of the energy split along the loading path.
 
     Parameters
     ----------
     path : DataFrame
         `energy_split_path.csv`.
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -101,20 +99,10 @@ def plot_exponent_path(path, fit, ax=None):
     """
     ax = axes(ax)
     path = path[path["exponent"].notna()]
-    phi = path["solid_fraction_above_jamming"]
-    label = r"solid fraction above jamming $\phi - \phi_J$ [-]"
-    if phi.isna().any():
-        phi, label = path["solid_fraction"], r"solid fraction $\phi$ [-]"
+    phi, label = above_jamming(path)
     if path["exponent_low"].notna().all():
-        ax.fill_between(
-            phi,
-            path["exponent_low"],
-            path["exponent_high"],
-            color=MEASURED,
-            alpha=0.2,
-            lw=0,
-            label=f"{fit['confidence']:.0%} interval, {fit['seeds']} seeds",
-        )
+        label_of_band = f"{fit.confidence:.0%} interval, {fit.packings.seeds} seeds"
+        draw_band(ax, phi, path, "exponent", MEASURED, label_of_band)
     ax.plot(phi, path["exponent"], "o-", color=MEASURED, label="binned fit of all seeds")
     ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set(xlabel=label, ylabel="exponent n [-]")
@@ -126,7 +114,7 @@ def plot_exponent_path(path, fit, ax=None):
     floor, ceiling = ax.get_ylim()
     ax.set_ylim(max(floor, low - 2.0), min(ceiling, high + 2.0))
     top = ax.twiny()
-    top.set_xlim(ax.get_xlim())
+    top.set_xlim(widen(ax).get_xlim())
     shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
     top.set_xticks(phi.iloc[shown], [f"{v:.3g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
     top.set_xlabel("mean stress [MPa]")
@@ -153,11 +141,12 @@ def _mark_thin(ax, x, y, counts, empty):
 
 
 def _seeds(fit):
-    return f"{fit['seeds']} seed{'s' if fit['seeds'] > 1 else ''}, bin means"
+    seeds = fit.packings.seeds
+    return f"{seeds} seed{'s' if seeds > 1 else ''}, bin means"
 
 
 def _title(fit):
-    title = rf"$\phi$ = {fit['solid_fraction']:.3f}"
-    if fit["exponent_low"] is None:
+    title = rf"$\phi$ = {fit.packings.solid_fraction:.3f}"
+    if not np.isfinite(fit.exponent.low):
         return title
-    return f"{title}, {fit['confidence']:.0%} interval"
+    return f"{title}, {fit.confidence:.0%} interval"

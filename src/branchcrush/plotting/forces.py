@@ -1,15 +1,20 @@
 """Whether the contact network leans one way: the fabric of each seed beside what chance gives."""
 
-import numpy as np
+from collections.abc import Mapping
 
+import numpy as np
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
 from branchcrush.forces.fabric import chance_range
-from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, draw_points, of_states
+from branchcrush.plotting.intervals import draw_points
+from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}
 
 
-def plot_fabric(table, summary, ax=None):
+def plot_fabric(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the deviator of the fabric of each seed against the one expected by chance.
 
     Parameters
@@ -65,7 +70,7 @@ def plot_fabric(table, summary, ax=None):
     return ax
 
 
-def plot_force_distribution(table, summary, ax=None):
+def plot_force_distribution(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the distribution of relative forces with its tail.
 
     Parameters
@@ -109,7 +114,9 @@ def plot_force_distribution(table, summary, ax=None):
     return ax
 
 
-def plot_force_by_length(table, summary, radius_max, ax=None):
+def plot_force_by_length(
+    table: Table, summary: Mapping, radius_max: float, ax: Axes | None = None
+) -> Axes:
     """Draw the mean force against branch length.
 
     Parameters
@@ -147,7 +154,7 @@ def plot_force_by_length(table, summary, radius_max, ax=None):
     return ax
 
 
-def plot_stress_by_radius(table, radius_max, ax=None):
+def plot_stress_by_radius(table: Table, radius_max: float, ax: Axes | None = None) -> Axes:
     """Draw the mean stress of grains against their radius.
 
     Parameters
@@ -185,7 +192,7 @@ def plot_stress_by_radius(table, radius_max, ax=None):
     return ax
 
 
-def plot_stress_sharing(table, summary, ax=None):
+def plot_stress_sharing(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the share of the stress against the share of the solid volume, finest grains first.
 
     Parameters

@@ -1,11 +1,13 @@
 """Figures 3 and 7 of the paper: the grading and the distribution of branch lengths."""
 
+from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
 
 
-def plot_grading(grading, ax=None):
+def plot_grading(grading: Table, ax: Axes | None = None) -> Axes:
     """Draw the sieve curve and the distribution by number: target and realised (Fig. 3).
 
     The ultimate grading is drawn as well if the table has it.

@@ -1,11 +1,15 @@
 """The loading path as measured: stress, energies, coordination."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
+from branchcrush.files.tables import Table
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, widen
 
 
-def plot_mean_stress(path, ax=None):
+def plot_mean_stress(path: Table, ax: Axes | None = None) -> Axes:
     """Draw the mean stress of every seed against solid fraction.
 
     Parameters
@@ -29,7 +33,7 @@ def plot_mean_stress(path, ax=None):
     return ax
 
 
-def plot_energy_balance(path, ax=None):
+def plot_energy_balance(path: Table, ax: Axes | None = None) -> Axes:
     """Draw work, stored and dissipated energy per volume, means over the seeds.
 
     Parameters
@@ -57,7 +61,7 @@ def plot_energy_balance(path, ax=None):
     return ax
 
 
-def plot_coordination(path, ax=None):
+def plot_coordination(path: Table, ax: Axes | None = None) -> Axes:
     """Draw the coordination numbers and the share of rattlers, means over the seeds.
 
     Parameters
@@ -89,10 +93,10 @@ def plot_coordination(path, ax=None):
     share.spines["right"].set_visible(True)
     ax.plot([], [], "s--", color=OTHER, label="rattlers (right)")
     ax.legend(loc="best")
-    return ax
+    return widen(ax)
 
 
-def plot_elastic_law(path, summary, ax=None):
+def plot_elastic_law(path: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the measured elastic energy and the law fitted to it, per volume at jamming.
 
     Parameters

@@ -1,6 +1,8 @@
 """Figure 4 of the paper: a picture of the packing, every grain in its place and size."""
 
 import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from branchcrush.plotting.style import axes
 
@@ -11,7 +13,9 @@ _CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 _EDGES = [(a, b) for a in range(8) for b in range(a) if np.abs(_CUBE[a] - _CUBE[b]).sum() == 1]
 
 
-def sphere_image(positions, radii, scale, pixels, colours):
+def sphere_image(
+    positions: NDArray, radii: NDArray, scale: float, pixels: int, colours: NDArray
+) -> NDArray:
     """Return an image of shaded spheres in orthographic view, hidden ones hidden.
 
     Each sphere fills the pixels of its disc that no nearer one covers; the surface there has a
@@ -66,7 +70,16 @@ def sphere_image(positions, radii, scale, pixels, colours):
     return image
 
 
-def plot_packing(positions, radii, edge, *, extent=None, pixels=900, radius_max=None, ax=None):
+def plot_packing(
+    positions: NDArray,
+    radii: NDArray,
+    edge: float,
+    *,
+    extent: float | None = None,
+    pixels: int = 900,
+    radius_max: float | None = None,
+    ax: Axes | None = None,
+) -> Axes:
     """Draw a packing in its cell, grains coloured by radius (Fig. 4).
 
     Parameters
@@ -124,7 +137,8 @@ def plot_packing(positions, radii, edge, *, extent=None, pixels=900, radius_max=
     return ax
 
 
-def _rotation():
+def _rotation() -> NDArray:
+    """Return the axes of the view, a row each: right, away from the eye, up."""
     turn = np.array(
         [
             [np.cos(_TURN), np.sin(_TURN), 0],

@@ -1,20 +1,21 @@
 """What the energy of a branch depends on: predictors judged on seeds left out."""
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import MEASURED, MODEL, axes
-from branchcrush.statistics.intervals import LIMITS, interval_names
+from branchcrush.plotting.style import MODEL, STATES, axes
 
 
-def plot_predictors(fit, ax=None):
+def plot_predictors(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the deviance that each predictor explains on seeds left out of its fit.
 
     Parameters
     ----------
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -23,16 +24,11 @@ def plot_predictors(fit, ax=None):
     """
     ax = axes(ax)
     shown = 0
-    states = (("at the end", fit["predictors"], MEASURED, -0.12),)
-    states += (("near jamming", fit["near_jamming"]["predictors"], "#6f9bc4", 0.12),)
-    for label, predictors, color, shift in states:
-        known = [p for p in predictors if p.get("explained_deviance") is not None]
-        rows = [list(PREDICTORS).index(p["name"]) + shift for p in known]
-        value, low, high = (
-            np.array([p[name] for p in known], dtype=float)
-            for name in interval_names("explained_deviance")
-        )
+    for (label, color), state, side in _states(fit):
+        known = [one for one in state.predictors if np.isfinite(one.explained.estimate)]
+        rows = [list(PREDICTORS).index(one.name) - 0.12 * side for one in known]
         if known:
+            value, low, high = np.array([one.explained for one in known]).T
             ax.errorbar(
                 value, rows, xerr=[value - low, high - value], fmt="o", color=color, label=label
             )
@@ -48,13 +44,13 @@ def plot_predictors(fit, ax=None):
     return ax
 
 
-def plot_slopes(fit, ax=None):
+def plot_slopes(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     """Draw the local exponents of the energy at short and at long branches.
 
     Parameters
     ----------
-    fit : dict
-        `energy_split.json`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
     ax : Axes, optional
 
     Returns
@@ -62,21 +58,18 @@ def plot_slopes(fit, ax=None):
     Axes
     """
     ax = axes(ax)
-    places = ("slope_at_10_percent", "slope_at_mean", "slope_at_90_percent")
-    states = (("at the end", fit["curvature"], MEASURED, 0.05),)
-    states += (("near jamming", fit["near_jamming"]["curvature"], "#6f9bc4", -0.05),)
-    for label, bend, color, shift in states:
-        if "reason" in bend:
+    for (label, color), state, side in _states(fit):
+        bend = state.curvature
+        if bend.reason is not None:
             continue
-        value, low, high = (
-            np.array([bend[place + limit] for place in places], dtype=float) for limit in LIMITS
-        )
-        text = f"{label}: c = {bend['curvature']:.2f}"
+        slopes = (bend.slope_at_10_percent, bend.slope_at_mean, bend.slope_at_90_percent)
+        value, low, high = np.array(slopes).T
+        text = f"{label}: c = {bend.curvature.estimate:.2f}"
         error = None
         if np.isfinite(low).all():
-            text += f" ({bend['curvature_low']:.2f} to {bend['curvature_high']:.2f})"
+            text += f" ({bend.curvature.low:.2f} to {bend.curvature.high:.2f})"
             error = [value - low, high - value]
-        ax.errorbar(np.arange(3) + shift, value, error, fmt="o-", color=color, label=text)
+        ax.errorbar(np.arange(3) + 0.05 * side, value, error, fmt="o-", color=color, label=text)
     ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
     ax.set_xticks(range(3), ["shortest 10 %", "mean", "longest 10 %"])
     ax.set(
@@ -86,3 +79,11 @@ def plot_slopes(fit, ax=None):
     ax.set_ylim(low, high + 0.35 * (high - low))
     ax.legend(loc="upper left", title="c = 0 for a power law", title_fontsize=6.5)
     return ax
+
+
+def _states(fit: EnergySplitFit) -> list[tuple]:
+    """Return look, fit and side of the end, and of the state near jamming where there is one."""
+    states = [(STATES["end"], fit.end, 1)]
+    if fit.near_jamming is not None:
+        states.append((STATES["near_jamming"], fit.near_jamming, -1))
+    return states

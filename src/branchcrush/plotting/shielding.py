@@ -1,10 +1,16 @@
 """How grains and branches share energy, force and stress."""
 
-from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, draw_points, of_states
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+
+from branchcrush.files.tables import Table
+from branchcrush.plotting.intervals import draw_points
+from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 
-def plot_branch_shielding(table, summary, ax=None):
+def plot_branch_shielding(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the energy of branches of equal length against the ratio of their radii.
 
     Parameters
@@ -47,7 +53,7 @@ def plot_branch_shielding(table, summary, ax=None):
     return ax
 
 
-def plot_grain_shielding(table, reading="contact", ax=None):
+def plot_grain_shielding(table: Table, reading: str = "contact", ax: Axes | None = None) -> Axes:
     """Draw the energy of grains against their radius over that of their neighbours.
 
     Parameters

@@ -1,21 +1,29 @@
 """All samples of a study in one figure: a colour for each grading, a line for each boundary."""
 
+from collections.abc import Mapping
 from itertools import takewhile
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from branchcrush.branches.predictions import PREDICTIONS
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import CONTACT_LAWS
-from branchcrush.plotting.style import FAINT, axes
-from branchcrush.study.findings import GOOD_DISTANCE
+from branchcrush.plotting.intervals import draw_band
+from branchcrush.plotting.style import FAINT, axes, widen
+from branchcrush.study.kinds import SampleKind
+from branchcrush.study.verdicts import GOOD_DISTANCE
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
 
+# Of `findings.csv`, by what `plot_samples` draws of each prediction or predictor.
+COLUMNS = {"lengths": "ks_{}_near", "energies": "explained_{}_end"}
 
-def sample_styles(samples):
+
+def sample_styles(samples: Mapping[str, SampleKind]) -> dict[str, dict]:
     """Return how each sample is drawn: one colour a grading, dashed between walls, open for Hertz.
 
     Parameters
@@ -50,7 +58,9 @@ def sample_styles(samples):
     return styles
 
 
-def plot_exponents(paths, styles, law, ax=None):
+def plot_exponents(
+    paths: Mapping[str, Table], styles: Mapping[str, Mapping], law: str, ax: Axes | None = None
+) -> Axes:
     """Draw the exponent against the distance from jamming, of all samples of one contact law.
 
     Parameters
@@ -74,12 +84,14 @@ def plot_exponents(paths, styles, law, ax=None):
         if style["law"] != law:
             continue
         # Where hardly a contact is, the interval says nothing and would hide the others.
-        path = path[(path["exponent_high"] - path["exponent_low"]).fillna(0.0) < 2.0]
+        if len(path) > 1:
+            path = path[(path["exponent_high"] - path["exponent_low"]).fillna(0.0) < 2.0]
         x = path["solid_fraction_above_jamming"]
         top = max(top, path["exponent"].max())
-        ax.plot(x, path["exponent"], style["line"], color=style["color"])
-        low, high = path["exponent_low"], path["exponent_high"]
-        ax.fill_between(x, low, high, color=style["color"], alpha=0.12, lw=0)
+        # One state is a point, and its interval a bar.
+        line = style["line"] if len(path) > 1 else "o"
+        ax.plot(x, path["exponent"], line, color=style["color"])
+        draw_band(ax, x, path, "exponent", style["color"], alpha=0.12)
     ax.axhline(PAPER_EXPONENT, color="black", ls=":", lw=1.0)
     ax.set(xlabel=r"solid fraction above jamming $\phi - \phi_J$ [-]", ylabel="exponent n [-]")
     ax.set(title=CONTACT_LAWS[law].label, ylim=(0, 1.45 * top))
@@ -92,10 +104,10 @@ def plot_exponents(paths, styles, law, ax=None):
         handlelength=1.5,
         columnspacing=1.0,
     )
-    return ax
+    return widen(ax)
 
 
-def plot_samples(rows, kind, ax=None):
+def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:
     """Draw one number of every prediction, a row a sample.
 
     Parameters
@@ -112,10 +124,7 @@ def plot_samples(rows, kind, ax=None):
     Axes
     """
     ax = axes(ax)
-    column, looks = {
-        "lengths": ("ks_{}_near", PREDICTIONS),
-        "energies": ("explained_{}_end", PREDICTORS),
-    }[kind]
+    column, looks = COLUMNS[kind], {"lengths": PREDICTIONS, "energies": PREDICTORS}[kind]
     places = np.arange(len(rows))
     for name, look in looks.items():
         if column.format(name) in rows:
@@ -140,7 +149,7 @@ def plot_samples(rows, kind, ax=None):
     return ax
 
 
-def legend_handles(styles, lines=False):
+def legend_handles(styles: Mapping[str, Mapping], lines: bool = False) -> list[Line2D]:
     """Return what a legend shows: a colour for each grading, and the boundaries where they vary.
 
     Parameters

@@ -1,13 +1,17 @@
 """The contact networks of all samples of a study: coordination, shielding, stress and forces."""
 
+from collections.abc import Mapping
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from branchcrush.branches.coordination_laws import field, gray, jamming_law, smith
+from branchcrush.files.tables import Table
 from branchcrush.plotting.study import legend_handles
 from branchcrush.plotting.style import FAINT, MODEL, axes
 
 
-def plot_coordination(states, styles, ax=None):
+def plot_coordination(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:
     """Draw the coordination numbers of all states against void ratio, with historic relations.
 
     Parameters
@@ -38,7 +42,10 @@ def plot_coordination(states, styles, ax=None):
             color=color,
             alpha=0.5,
         )
-    e = np.linspace(states["void_ratio"].min(), states["void_ratio"].max(), 100)
+    # Beside one state, relations are shown over some range too.
+    least, most = states["void_ratio"].min(), states["void_ratio"].max()
+    wider = max(0.0, 0.1 - (most - least)) / 2.0
+    e = np.linspace(least - wider, most + wider, 100)
     curves = ((smith, "-", "Smith 1929"), (field, "--", "Field 1963"), (gray, ":", "Gray 1968"))
     for relation, line, label in curves:
         ax.plot(e, relation(e), line, color="black", lw=1.0, label=label)
@@ -49,7 +56,7 @@ def plot_coordination(states, styles, ax=None):
     return ax
 
 
-def plot_jamming_law(states, styles, ax=None):
+def plot_jamming_law(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:
     """Draw the mechanical coordination number against the distance from jamming, with the law.
 
     Parameters
@@ -88,7 +95,9 @@ def plot_jamming_law(states, styles, ax=None):
     return ax
 
 
-def plot_branch_shielding(tables, styles, ax=None):
+def plot_branch_shielding(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the energy of branches of equal length against the ratio of their radii, at the end.
 
     Parameters
@@ -116,7 +125,9 @@ def plot_branch_shielding(tables, styles, ax=None):
     return ax
 
 
-def plot_grain_shielding(tables, styles, ax=None):
+def plot_grain_shielding(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the energy per contact of grains against their radius over their neighbours'.
 
     Parameters
@@ -146,7 +157,9 @@ def plot_grain_shielding(tables, styles, ax=None):
     return ax
 
 
-def plot_stress(tables, styles, ax=None):
+def plot_stress(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw how far the cumulative stress is from the cumulative volume, finest grains first.
 
     Parameters
@@ -181,7 +194,9 @@ def plot_stress(tables, styles, ax=None):
     return ax
 
 
-def plot_forces(tables, styles, ax=None):
+def plot_forces(
+    tables: Mapping[str, Table], styles: Mapping[str, Mapping], ax: Axes | None = None
+) -> Axes:
     """Draw the distribution of forces of all samples at the end of the loading.
 
     Parameters

@@ -1,13 +1,16 @@
 """How every figure looks, and how it is saved."""
 
+import os
 import textwrap
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import matplotlib
-import numpy as np
+from matplotlib.axes import Axes
 
-from branchcrush.statistics.intervals import interval_names
+from branchcrush.files.tables import Table
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
@@ -17,6 +20,8 @@ MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"
 STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEASURED)}
 # One column of a journal page [inch].
 SIZE = (3.5, 2.7)
+# Solid fractions are drawn on an axis that is at least so wide [-].
+LEAST_SPREAD = 0.05
 
 _STYLE = {
     "font.size": 8,
@@ -31,57 +36,103 @@ _STYLE = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "mathtext.fontset": "dejavusans",
+    # Numbers as they are: no axis whose marks are to be added to one number at its end.
+    "axes.formatter.useoffset": False,
 }
 
 
-def axes(ax=None):
-    """Return the given Axes, or those of a new figure of one journal column."""
+def axes(ax: Axes | None = None) -> Axes:
+    """Return the given Axes, or those of a new figure of one journal column.
+
+    Examples
+    --------
+    >>> ax = axes()
+    >>> axes(ax) is ax
+    True
+    """
     return ax if ax is not None else plt.subplots(figsize=SIZE, layout="constrained")[1]
 
 
+def grid(rows: int, columns: int) -> tuple[tuple[float, float], tuple[int, int]]:
+    """Return size [inch] and panels of a figure of panels of one journal column each.
+
+    Examples
+    --------
+    >>> grid(1, 2)
+    ((7.0, 2.7), (1, 2))
+    """
+    return (columns * SIZE[0], rows * SIZE[1]), (rows, columns)
+
+
 @contextmanager
-def figure(path, dpi, size=SIZE, panels=(1, 1), squeeze=True):
+def figure(
+    path: str | os.PathLike,
+    dpi: int,
+    size: tuple[float, float] = SIZE,
+    panels: tuple[int, int] = (1, 1),
+    squeeze: bool = True,
+) -> Iterator[Any]:
     """Draw a figure and save it: yields its Axes, one or an array of them.
 
     Parameters
     ----------
     path : path-like
-        A PNG file.
+        A PNG file; its folder is made.
     dpi : int
+        Dots per inch.
     size : tuple of float
         [inch]
     panels : tuple of int
         Rows and columns.
     squeeze : bool
         Whether one panel comes alone and one row or column as a list, or all as an array.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with figure(Path(folder) / "new" / "line.png", 50) as ax:
+    ...         _ = ax.plot([0, 1], [0, 1])
+    ...     (Path(folder) / "new" / "line.png").exists()
+    True
     """
     with plt.rc_context(_STYLE):
-        drawn, ax = plt.subplots(*panels, figsize=size, layout="constrained", squeeze=squeeze)
+        drawing, ax = plt.subplots(*panels, figsize=size, layout="constrained", squeeze=squeeze)
         yield ax
         Path(path).parent.mkdir(parents=True, exist_ok=True)
         # No date and no version of the plotting library: the same data give the same bytes.
         # A file a seventh larger than the smallest takes half the time to write.
         fast = {"compress_level": 2}
-        drawn.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs=fast)
-        plt.close(drawn)
+        drawing.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs=fast)
+        plt.close(drawing)
 
 
-def drawn(plot, result, *data, ax):
-    """Draw a result on an Axes, or write there why there is none, and return it.
+def drawn(plot: Callable[..., Axes], why: str | None, *data: Any, ax: Axes) -> Axes:
+    """Draw data on an Axes, or write there why there are none, and return it.
 
     Parameters
     ----------
     plot : callable
-    result : dict
-        With a key `reason` where there is nothing to draw.
+        Takes the data and `ax`.
+    why : str or None
+        The reason of a result without data.
     *data
         For the plot.
     ax : Axes
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> drawn(len, "no load", ax=axes()).texts[0].get_text()
+    'no data: no load'
     """
-    return reason(ax, result["reason"]) if "reason" in result else plot(*data, ax=ax)
+    return plot(*data, ax=ax) if why is None else reason(ax, why)
 
 
-def reason(ax, text):
+def reason(ax: Axes, text: str) -> Axes:
     """Write on an Axes why there is nothing to draw, and return it."""
     lines = textwrap.fill(f"no data: {text}", 48)
     ax.text(0.5, 0.5, lines, ha="center", va="center", transform=ax.transAxes, fontsize=7)
@@ -89,14 +140,82 @@ def reason(ax, text):
     return ax
 
 
-def of_states(table):
-    return ((where, table[table["where"] == where]) for where in STATES)
+def widen(ax: Axes, least: float = LEAST_SPREAD) -> Axes:
+    """Widen the horizontal axis about its middle to a least width, and return the Axes.
+
+    Of one state, or of packings that differ by rounding, an axis would show the last digits.
+
+    Parameters
+    ----------
+    ax : Axes
+    least : float
+        In units of the axis; by default for solid fractions [-].
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> ax = axes()
+    >>> _ = ax.plot([0.71, 0.71 + 1e-9], [1.0, 2.0])
+    >>> [float(round(end, 6)) for end in widen(ax, 0.02).get_xlim()]
+    [0.7, 0.72]
+    """
+    low, high = ax.get_xlim()
+    if high - low < least:
+        middle = (low + high) / 2.0
+        ax.set_xlim(middle - least / 2.0, middle + least / 2.0)
+    return ax
 
 
-def draw_points(ax, x, rows, column, color, label, marker="o", floor=0.0):
-    """Draw points with their intervals, those below a floor cut there."""
-    y, low, high = (rows[name] for name in interval_names(column))
-    error = None
-    if low.notna().any():
-        error = np.array([y - np.maximum(low, floor), high - y]).clip(0.0)
-    ax.errorbar(x, y, error, fmt=marker, ms=3, color=color, lw=0.8, label=label)
+def of_states(table: Table) -> Iterator[tuple[str, Table]]:
+    """Return the rows of each state that a table of networks has, in the order of `STATES`.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With a column `where`, of names in `STATES`.
+
+    Returns
+    -------
+    iterator of (str, DataFrame)
+        The name of the state and its rows.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> [where for where, _ in of_states(pd.DataFrame({"where": ["end", "end"]}))]
+    ['end']
+    """
+    for where in STATES:
+        rows = table[table["where"] == where]
+        if len(rows):
+            yield where, rows
+
+
+def above_jamming(table: Table) -> tuple[Any, str]:
+    """Return what to draw a path against, and its label: phi - phi_J, or phi where it is unknown.
+
+    Parameters
+    ----------
+    table : DataFrame
+        With columns solid_fraction and solid_fraction_above_jamming.
+
+    Returns
+    -------
+    values : Series
+        [-]
+    label : str
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> columns = {"solid_fraction": [0.7], "solid_fraction_above_jamming": [float("nan")]}
+    >>> above_jamming(pd.DataFrame(columns))[0].tolist()
+    [0.7]
+    """
+    above = table["solid_fraction_above_jamming"]
+    if above.isna().any():
+        return table["solid_fraction"], r"solid fraction $\phi$ [-]"
+    return above, r"solid fraction above jamming $\phi - \phi_J$ [-]"

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
-from branchcrush.crushing.model import CrushingLaw, reference_energy, theta
+from branchcrush.crushing.law import CrushingLaw
+from branchcrush.crushing.model import reference_energy, theta
 from branchcrush.crushing.path import crushing_path
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.errors import AdmissibilityError, FitError

@@ -220,7 +220,7 @@ def _convergence(table):
 def _wide_interval(fit):
     """Return a reason where the exponent is not told; one seed, or no fit, has no interval."""
     exponent = fit.exponent
-    if not exponent.high - exponent.low > abs(exponent.estimate):
+    if not exponent.is_wide:
         return []
     # No certificate: the verdict stands beside n, and such an n says nothing.
     return [

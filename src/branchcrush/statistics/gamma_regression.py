@@ -4,12 +4,19 @@ What the interval and the test on seeds left out need is kept for each seed, so 
 more than one fit.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
-from branchcrush.statistics.intervals import interval_of_refits, seed_draws
+from branchcrush.statistics.intervals import Interval, interval_of_refits, seed_draws
+
+# Of parameters and columns: eta of each branch and its derivatives. Of None: where to start.
+Design = Callable[..., Any]
+# The columns that a design takes, and last the energies.
+Seed = Sequence[ArrayLike]
 
 _ITERATIONS = 100
 _CONVERGED = 1e-8
@@ -32,7 +39,7 @@ class GammaFit(NamedTuple):
     bends: np.ndarray
 
 
-def gamma_fit(seeds, design, start=None):
+def gamma_fit(seeds: Sequence[Seed], design: Design, start: ArrayLike | None = None) -> GammaFit:
     r"""Fit mean energies to all branches of all seeds at once.
 
     .. math:: \sum_b \left(\frac{E_b}{e^{\eta_b}} - 1\right) \frac{\partial \eta_b}
@@ -72,12 +79,14 @@ def gamma_fit(seeds, design, start=None):
     ----------
     McCullagh and Nelder (1989), Generalized Linear Models, chapter 8.
     """
-    seeds = _as_arrays(seeds)
-    step, theta, scores, information = _settled(seeds, design, start)
-    return GammaFit(theta + step, scores, *_curved(seeds, design, theta, information))
+    branches = _as_arrays(seeds)
+    step, theta, scores, information = _settled(branches, design, start)
+    return GammaFit(theta + step, scores, *_curved(branches, design, theta, information))
 
 
-def fitted_parameters(seeds, design, start=None):
+def fitted_parameters(
+    seeds: Sequence[Seed], design: Design, start: ArrayLike | None = None
+) -> NDArray:
     """Return the parameters of `gamma_fit` alone: all that a judgement of other seeds needs.
 
     Parameters
@@ -105,11 +114,13 @@ def fitted_parameters(seeds, design, start=None):
     return theta + step
 
 
-def _as_arrays(seeds):
+def _as_arrays(seeds: Sequence[Seed]) -> list[tuple[NDArray, ...]]:
     return [tuple(np.asarray(column, dtype=float) for column in seed) for seed in seeds]
 
 
-def _settled(seeds, design, start):
+def _settled(
+    seeds: list[tuple[NDArray, ...]], design: Design, start: ArrayLike | None
+) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """Return the last step and where it was made, with the sums of the seeds there."""
     energies = [seed[-1] for seed in seeds]
     number = sum(energy.size for energy in energies)
@@ -137,7 +148,8 @@ def _settled(seeds, design, start):
     raise FitError("the fit did not settle: too few branches carry energy")
 
 
-def _solved(information, score):
+def _solved(information: NDArray, score: NDArray) -> NDArray:
+    """Return the step of Newton's method; refuse where branches do not tell parameters apart."""
     scale = np.sqrt(np.diag(information))
     if not np.all(scale > 0.0):
         raise FitError("the branches do not tell the parameters apart")
@@ -148,7 +160,9 @@ def _solved(information, score):
     return vectors @ ((vectors.T @ (score / scale)) / values) / scale
 
 
-def _sums(seeds, design, theta):
+def _sums(
+    seeds: Sequence[tuple[NDArray, ...]], design: Design, theta: NDArray
+) -> tuple[float, NDArray, NDArray]:
     """Return the loss, sum of eta + E exp(-eta), and score and information of each seed."""
     loss, scores = 0.0, np.zeros((len(seeds), theta.size))
     information = np.zeros((len(seeds), theta.size, theta.size))
@@ -167,7 +181,9 @@ def _sums(seeds, design, theta):
     return loss, scores, information
 
 
-def _curved(seeds, design, theta, information):
+def _curved(
+    seeds: Sequence[tuple[NDArray, ...]], design: Design, theta: NDArray, information: NDArray
+) -> tuple[NDArray, NDArray]:
     """Return information and bends, the second derivatives of eta taken into account."""
     bends = np.zeros_like(information)
     *columns, _ = max(seeds, key=lambda seed: seed[-1].size)
@@ -182,21 +198,32 @@ def _curved(seeds, design, theta, information):
         )
         information[:, :, k] = (below - above) / (2.0 * _SHIFT)
         bends[:, :, k] = ((more[:, 0] - above) - (less[:, 0] - below)) / (2.0 * _SHIFT)
-    return ((x + np.swapaxes(x, 1, 2)) / 2.0 for x in (information, bends))
+    return _symmetric(information), _symmetric(bends)
 
 
-def _pieces(number):
+def _symmetric(matrices: NDArray) -> NDArray:
+    return (matrices + np.swapaxes(matrices, 1, 2)) / 2.0
+
+
+def _pieces(number: int) -> Iterator[slice]:
     return (slice(start, start + _PIECE) for start in range(0, number, _PIECE))
 
 
-def parameter_intervals(fit, transform=None, *, confidence=0.95, resamples=2000, rng):
+def parameter_intervals(
+    fit: GammaFit,
+    transform: Callable[[NDArray], NDArray] | None = None,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator,
+) -> Interval:
     r"""Return the parameters with their intervals from resampling seeds.
 
     .. math:: \theta^* = \hat\theta + (\ln\rho, 0, \ldots)
-        + \Big(\sum_s w_s A_s(\rho)\Big)^{-1} \sum_s w_s g_s(\rho), \qquad
+        + \Bigl(\sum_s w_s A_s(\rho)\Bigr)^{-1} \sum_s w_s g_s(\rho), \qquad
         \rho = \frac{\sum_s w_s \sum_b E_b e^{-\eta_b}}{\sum_s w_s M_s}
 
-    w_s says how often seed s is drawn. The scale of the draw is found first, exactly: seeds may
+    w_s says how often seed s is drawn. The scale of the draw comes first, exactly: seeds may
     differ in it by far. From there it is one step of Newton's method towards the fit of the draw;
     g_s is the score of seed s and A_s its information, with all means times rho.
 
@@ -212,6 +239,18 @@ def parameter_intervals(fit, transform=None, *, confidence=0.95, resamples=2000,
     -------
     Interval
         Arrays of shape (p,), or (q,).
+
+    Examples
+    --------
+    >>> constant = lambda theta, x: (theta[0] + 0.0 * x, np.ones((x.size, 1)))
+    >>> fit = gamma_fit([([0.0], [2.0]), ([0.0], [2.0])], constant, [0.0])
+    >>> mean = parameter_intervals(fit, np.exp, rng=np.random.default_rng(1))
+    >>> [round(float(value[0]), 6) for value in mean]
+    [2.0, 2.0, 2.0]
+
+    References
+    ----------
+    McCullagh and Nelder (1989), Generalized Linear Models, chapter 8, for score and information.
     """
     wanted = transform if transform is not None else (lambda theta: theta)
     estimate = wanted(fit.parameters[None])[0]
@@ -234,7 +273,7 @@ def parameter_intervals(fit, transform=None, *, confidence=0.95, resamples=2000,
     return interval_of_refits(estimate, wanted(fit.parameters + steps), seeds, confidence)
 
 
-def deviance(seed, design, parameters):
+def deviance(seed: Seed, design: Design, parameters: ArrayLike) -> float:
     r"""Return the gamma deviance of a seed's energies from fitted means.
 
     .. math:: D = 2 \sum_b \left[\frac{E_b}{\mu_b} - 1 - \ln\frac{E_b}{\mu_b}\right]
@@ -244,11 +283,13 @@ def deviance(seed, design, parameters):
     seed : tuple of array_like
         As one of `gamma_fit`; energies above 0.
     design : callable
+        As of `gamma_fit`.
     parameters : array_like, shape (p,)
 
     Returns
     -------
     float
+        Never negative [-].
 
     Examples
     --------

@@ -1,9 +1,11 @@
 """Confidence intervals from resampling whole seeds: packings are independent, branches are not."""
 
+from collections.abc import Callable, Mapping
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 # What ends the name of an estimate, of its lower and of its upper limit.
 LIMITS = ("", "_low", "_high")
@@ -11,6 +13,15 @@ LIMITS = ("", "_low", "_high")
 
 def interval_names(name: str) -> tuple[str, ...]:
     """Return the names under which tables and results hold an estimate and its two limits.
+
+    Parameters
+    ----------
+    name : str
+        Of the estimate.
+
+    Returns
+    -------
+    tuple of str
 
     Examples
     --------
@@ -30,7 +41,12 @@ class Resampling(IntEnum):
     FINDINGS = 24
 
     def rng(self) -> np.random.Generator:
-        """Return a generator at the beginning of this state's draws."""
+        """Return a generator at the beginning of this state's draws.
+
+        Returns
+        -------
+        numpy.random.Generator
+        """
         return np.random.default_rng(int(self))
 
 
@@ -52,21 +68,71 @@ class Interval(NamedTuple):
     high: float | np.ndarray
 
     def named(self, name: str) -> dict:
-        """Return the three by their names in tables and results."""
+        """Return the three by their names in tables and results.
+
+        Parameters
+        ----------
+        name : str
+            Of the estimate.
+
+        Returns
+        -------
+        dict
+            As `interval_names` calls them.
+        """
         return dict(zip(interval_names(name), self, strict=True))
 
-    def part(self, place) -> "Interval":
-        """Return the interval of one quantity of many, or of some: an index into the arrays."""
-        return Interval(*(_plain(values[place]) for values in self))
+    def part(self, place: Any) -> "Interval":
+        """Return the interval of one quantity of many, or of some.
+
+        Parameters
+        ----------
+        place : int, slice or array
+            An index into the arrays.
+
+        Returns
+        -------
+        Interval
+        """
+        return Interval(*(_plain(np.asarray(values)[place]) for values in self))
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether it is wider than the estimate itself, which then is not told; not where unknown.
+
+        Examples
+        --------
+        >>> Interval(3.0, 1.4, 4.6).is_wide, Interval(3.0, 1.6, 4.4).is_wide
+        (True, False)
+        """
+        width = np.subtract(self.high, self.low)
+        return bool(width > np.abs(self.estimate))
 
     @classmethod
-    def read(cls, result, name: str) -> "Interval":
-        """Return the interval that a result holds under a name; nan where it has none."""
+    def read(cls, result: Mapping[str, Any], name: str) -> "Interval":
+        """Return the interval that a result holds under a name.
+
+        Parameters
+        ----------
+        result : mapping
+            Has `interval_names` of the name, or not.
+        name : str
+
+        Returns
+        -------
+        Interval
+            nan where the result has none, or None.
+
+        Examples
+        --------
+        >>> Interval.read({"exponent": 3.0, "exponent_low": None}, "exponent")
+        Interval(estimate=3.0, low=nan, high=nan)
+        """
         values = (result.get(key) for key in interval_names(name))
         return cls(*(float("nan") if value is None else value for value in values))
 
 
-def seed_draws(seeds, resamples, rng):
+def seed_draws(seeds: int, resamples: int, rng: np.random.Generator) -> NDArray:
     """Return how often each seed is in each draw of S seeds with replacement.
 
     Parameters
@@ -88,7 +154,9 @@ def seed_draws(seeds, resamples, rng):
     return rng.multinomial(seeds, np.full(seeds, 1.0 / seeds), size=resamples)
 
 
-def interval_of_refits(estimate, refits, seeds, confidence=0.95):
+def interval_of_refits(
+    estimate: ArrayLike, refits: ArrayLike, seeds: int, confidence: float = 0.95
+) -> Interval:
     r"""Return the interval of an estimate from those of draws of the seeds.
 
     .. math:: \hat\theta \pm t_{S-1}\, s_\theta \sqrt{S/(S-1)}
@@ -104,6 +172,7 @@ def interval_of_refits(estimate, refits, seeds, confidence=0.95):
     seeds : int
         S; with one seed the limits are nan.
     confidence : float
+        Between 0 and 1 [-].
 
     Returns
     -------
@@ -136,10 +205,17 @@ def interval_of_refits(estimate, refits, seeds, confidence=0.95):
     return Interval(*(_plain(value) for value in (estimate, estimate - half, estimate + half)))
 
 
-def pooled_interval(sums, statistic, *, confidence=0.95, resamples=2000, rng):
+def pooled_interval(
+    sums: ArrayLike,
+    statistic: Callable[[NDArray], NDArray],
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator,
+) -> Interval:
     r"""Return a statistic of sums over all seeds, with its interval from resampling seeds.
 
-    .. math:: \hat\theta = T\Big(\sum_s x_s\Big)
+    .. math:: \hat\theta = T\Bigl(\sum_s x_s\Bigr)
 
     A mean is a ratio of sums, so are the mean energies of bins, and what is fitted to them.
 
@@ -150,8 +226,11 @@ def pooled_interval(sums, statistic, *, confidence=0.95, resamples=2000, rng):
     statistic : callable
         T: takes sums of shape (draws, ...) and returns one estimate, or an array of them, a draw.
     confidence : float
+        Between 0 and 1 [-].
     resamples : int
+        Draws of S seeds.
     rng : numpy.random.Generator
+        One seed needs none.
 
     Returns
     -------
@@ -173,12 +252,23 @@ def pooled_interval(sums, statistic, *, confidence=0.95, resamples=2000, rng):
     return interval_of_refits(estimate, statistic(drawn), seeds, confidence)
 
 
-def _plain(value):
+def _plain(value: Any) -> Any:
     return float(value) if np.ndim(value) == 0 else value
 
 
-def interval_text(estimate, low, high):
+def interval_text(estimate: float, low: float | None, high: float | None) -> str:
     """Return an estimate with its interval as text, as 3.06 (2.97 to 3.15).
+
+    Parameters
+    ----------
+    estimate : float
+    low, high : float or None
+        None or nan where there is no interval.
+
+    Returns
+    -------
+    str
+        With two decimals.
 
     Examples
     --------

@@ -8,16 +8,13 @@ each counts alike, whatever its scale, and the amplitude is free.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
-from branchcrush.statistics.intervals import interval_of_refits, seed_draws
+from branchcrush.statistics.intervals import Interval, interval_of_refits, seed_draws
 
 _ITERATIONS = 200
-
-
 _CONVERGED = 1e-11
-
-
 # How many branches the fit takes at a time: what it makes of them stays in the processor's cache.
 _PIECE = 1 << 14
 
@@ -29,7 +26,7 @@ class PowerLaw(NamedTuple):
     exponent: float | np.ndarray
 
 
-def power_law_fit(length, energy, weight=1.0):
+def power_law_fit(length: ArrayLike, energy: ArrayLike, weight: ArrayLike = 1.0) -> PowerLaw:
     r"""Fit E(l) = A l^n by gamma quasi-likelihood with a logarithmic link.
 
     .. math:: \sum_b w_b \left(\frac{E_b}{A l_b^n} - 1\right) (1,\ \ln l_b) = 0
@@ -92,10 +89,11 @@ def power_law_fit(length, energy, weight=1.0):
         zeroth, first, second = _moments(weighted, centred, intercept, slope)
         excess, tilt = zeroth - total, first - residue
         determinant = zeroth * second - first**2
-        steps = (second * excess - first * tilt, zeroth * tilt - first * excess)
-        steps = [np.clip(step / determinant, -1.0, 1.0) for step in steps]
+        by_intercept = (second * excess - first * tilt) / determinant
+        by_slope = (zeroth * tilt - first * excess) / determinant
+        steps = np.clip([by_intercept, by_slope], -1.0, 1.0)
         intercept, slope = intercept + steps[0], slope + steps[1]
-        if max(np.abs(step).max() for step in steps) < _CONVERGED:
+        if np.abs(steps).max() < _CONVERGED:
             break
     else:
         raise FitError("the power-law fit did not converge: too few branches carry energy")
@@ -103,7 +101,7 @@ def power_law_fit(length, energy, weight=1.0):
     return PowerLaw(energy_scale * np.exp(log_amplitude), slope)
 
 
-def _moments(weighted, centred, intercept, slope):
+def _moments(weighted: NDArray, centred: NDArray, intercept: NDArray, slope: NDArray) -> NDArray:
     """Return the sums over the points of w y exp(-a - b x) times 1, x and x^2."""
     sums = np.zeros((3, *slope.shape))
     for start in range(0, centred.shape[-1], _PIECE):
@@ -116,8 +114,17 @@ def _moments(weighted, centred, intercept, slope):
     return sums
 
 
-def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
+def binned_exponent(
+    sums: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator,
+) -> tuple[PowerLaw, Interval]:
     r"""Return the exponent of the binned energies of all seeds, with its confidence interval.
+
+    .. math:: \sum_b N_b \left(\frac{\bar E_b}{A\, \bar l_b^{\,n}} - 1\right)
+        (1,\ \ln \bar l_b) = 0
 
     Branches of one packing share one force network and are not independent, so whole seeds are
     drawn with replacement and refitted: `statistics.intervals.interval_of_refits`.
@@ -130,6 +137,7 @@ def binned_exponent(sums, *, confidence=0.95, resamples=2000, rng):
     resamples : int
         Draws of S seeds.
     rng : numpy.random.Generator
+        One seed needs none.
 
     Returns
     -------

@@ -1,0 +1,22 @@
+"""All samples of a study beside each other, what a study will cost, and the pages to open.
+
+`results`
+    `SampleResults`: what the rules have found of one sample, read from its files.
+`kinds`
+    `SampleKind`: boundary, contact law and grading, which tell samples apart in figures.
+`exponents`
+    n at one distance from jamming (`at_distance`, `common_distance`), and where it crosses 3.
+`findings`, `verdicts`
+    `finding_rows` makes `findings.csv`, a row a sample; `verdicts` says which samples are on which
+    side of each question.
+`comparison`, `summary`
+    The row of a sample in `comparison.csv`, and the lines that a run ends with.
+`preview`
+    `sample_plan`: grains, time, memory and warnings of a sample before it runs.
+`pages`
+    `render_report` and `render_findings` fill the templates of `workflow/report`.
+
+A new number of all samples is a line of `findings.finding_row`; a new question is a line of
+`verdicts.verdicts` and a sentence of the template. A new warning before a run is one of
+`preview.sample_plan`.
+"""

@@ -1,12 +1,15 @@
 """The exponent of the energy split along the loading: where it is what, in samples of one study."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import Interval, interval_names
 
 
-def at_distance(path, distance):
+def at_distance(path: Table, distance: float) -> Interval:
     """Return the exponent at a distance from jamming, between the states next to it.
 
     Parameters
@@ -38,7 +41,7 @@ def at_distance(path, distance):
     )
 
 
-def crossing(path, exponent=PAPER_EXPONENT):
+def crossing(path: Table, exponent: float = PAPER_EXPONENT) -> float:
     """Return the distance from jamming from which on the exponent is above a value.
 
     Parameters
@@ -69,7 +72,7 @@ def crossing(path, exponent=PAPER_EXPONENT):
     return float(above[last] + share * (above[last + 1] - above[last]))
 
 
-def common_distance(paths):
+def common_distance(paths: Sequence[Table]) -> float:
     """Return the largest distance from jamming that all samples reach, rounded down to 0.01.
 
     Parameters
@@ -80,7 +83,8 @@ def common_distance(paths):
     Returns
     -------
     float
-        phi - phi_J [-]; nan without samples; those whose phi_J is unknown do not count.
+        phi - phi_J [-]; nan without samples. Those of one state, which have no path, and those
+        whose phi_J is unknown do not count.
 
     Examples
     --------
@@ -88,6 +92,6 @@ def common_distance(paths):
     >>> common_distance([pd.DataFrame({"solid_fraction_above_jamming": [0.01, 0.128]})])
     0.12
     """
-    ends = [path["solid_fraction_above_jamming"].max() for path in paths]
+    ends = [path["solid_fraction_above_jamming"].max() for path in paths if len(path) > 1]
     known = [end for end in ends if np.isfinite(end)]
     return float(np.floor(min(known) * 100.0 + 1e-9) / 100.0) if known else float("nan")

@@ -1,33 +1,52 @@
-"""All samples of a study beside each other: what their numbers say together."""
+"""All samples of a study beside each other: the rows of `findings.csv`."""
 
-import numpy as np
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from branchcrush.branches.coordination_laws import jamming_law_fit
-from branchcrush.energy.split import PAPER_EXPONENT
+from branchcrush.energy.state_fit import FittedPredictor, StateFit
 from branchcrush.statistics.intervals import LIMITS, Interval, Resampling, interval_names
-from branchcrush.study.exponents import at_distance, crossing
+from branchcrush.study.exponents import at_distance, common_distance, crossing
+from branchcrush.study.results import SampleResults
 
-# How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
-GOOD_DISTANCE = 0.06
 # Where tails of the forces begin, in mean forces.
 _TAIL = 2.0
 # Explained deviances less apart than this are the same but for rounding.
 _TIED = 1e-6
+_UNKNOWN = Interval(*3 * [float("nan")])
 
 
-def finding_row(name, kind, fit, numbers, shared, path, states, distance, intervals):
+def finding_rows(
+    samples: Sequence[SampleResults], *, confidence: float, resamples: int
+) -> list[dict[str, Any]]:
+    """Return the rows of `findings.csv`, a row a sample.
+
+    Parameters
+    ----------
+    samples : list of SampleResults
+    confidence : float
+        Of the intervals of the jamming law [-].
+    resamples : int
+        Draws of the seeds for them.
+
+    Returns
+    -------
+    list of dict
+        From `finding_row`, all at one distance from jamming.
+    """
+    distance = common_distance([sample.path for sample in samples if sample.fit.reason is None])
+    options = {"confidence": confidence, "resamples": resamples}
+    return [finding_row(sample, distance, options) for sample in samples]
+
+
+def finding_row(
+    sample: SampleResults, distance: float, intervals: Mapping[str, Any]
+) -> dict[str, Any]:
     """Return the row of `findings.csv` of a sample.
 
     Parameters
     ----------
-    name : str
-    kind : SampleKind
-    fit, numbers, shared : dict
-        `energy_split.json`, `contact_numbers.json` and `sharing.json`.
-    path : DataFrame
-        `energy_split_path.csv`.
-    states : DataFrame
-        `coordination.csv` of the sample.
+    sample : SampleResults
     distance : float
         From `study.exponents.common_distance` [-].
     intervals : dict
@@ -36,190 +55,142 @@ def finding_row(name, kind, fit, numbers, shared, path, states, distance, interv
     Returns
     -------
     dict
-        Only what a sample has data for; `reason` then says why.
+        Only what a sample has data for; `reason` then says why. A sample of one state has nothing
+        near jamming: no column ends in _near.
     """
     row = {
-        "sample": name,
-        "boundary": kind.boundary,
-        "contact_law": kind.law,
+        "sample": sample.name,
+        "boundary": sample.kind.boundary,
+        "contact_law": sample.kind.law,
+        "reason": sample.reason,
     }
-    reasons = [part["reason"] for part in (fit, numbers, shared) if part.get("reason")]
-    row["reason"] = reasons[0] if reasons else None
-    if "reason" not in fit:
-        row |= _exponents(fit, path, distance)
-        row |= _split(fit, "end")
-        row |= _split(fit["near_jamming"], "near")
-    if "reason" not in numbers:
-        row |= _lengths(numbers)
-        row |= _coordination(numbers, states, intervals)
-    if "reason" not in shared:
-        row |= _shared(shared["end"])
+    if sample.fit.reason is None:
+        row |= _exponents(sample, distance)
+        row |= _split(sample.fit.end, "end")
+        if sample.fit.near_jamming is not None:
+            row |= _split(sample.fit.near_jamming, "near")
+    if "reason" not in sample.numbers:
+        row |= _lengths(sample.numbers)
+        row |= _coordination(sample.numbers)
+        row |= _jamming_law(sample.states, intervals)
+    if "reason" not in sample.shared:
+        row |= _shielding(sample.shared["end"]["shielding"])
+        row |= _forces(sample.shared["end"])
     return row
 
 
-def _exponents(fit, path, distance):
-    row = {"seeds": fit["seeds"], "solid_fraction": fit["solid_fraction"]}
-    row["distance_at_end"] = float(path["solid_fraction_above_jamming"].iloc[-1])
-    row |= _renamed(fit, "exponent", "exponent_at_end")
-    row["distance"] = distance
-    row |= at_distance(path, distance).named("exponent_at_distance")
-    row["distance_of_exponent_3"] = crossing(path)
-    return row
+def _exponents(sample: SampleResults, distance: float) -> dict[str, Any]:
+    packings, path = sample.fit.packings, sample.path
+    assert packings is not None  # a fit without a reason has them
+    return {
+        "seeds": packings.seeds,
+        "solid_fraction": packings.solid_fraction,
+        "distance_at_end": float(path["solid_fraction_above_jamming"].iloc[-1]),
+        **sample.fit.exponent.named("exponent_at_end"),
+        "distance": distance,
+        **at_distance(path, distance).named("exponent_at_distance"),
+        "distance_of_exponent_3": crossing(path),
+    }
 
 
-def _renamed(result, name, new):
-    """Return an estimate and its limits of a result under another name, None where it has none."""
-    keys = zip(interval_names(new), interval_names(name), strict=True)
-    return {to: result.get(key) for to, key in keys}
+def _at(where: str, interval: Interval, name: str) -> dict[str, Any]:
+    """Return an interval by the names of its columns in a state, as name_low_end."""
+    return {f"{name}{limit}_{where}": value for limit, value in zip(LIMITS, interval, strict=True)}
 
 
-def _split(fit, where):
-    row = {}
-    bend = fit["curvature"]
-    for name in interval_names("curvature"):
-        row[f"{name}_{where}"] = bend.get(name)
-    known = {p["name"]: p for p in fit["predictors"] if "reason" not in p}
+def _split(state: StateFit, where: str) -> dict[str, Any]:
+    row = _at(where, state.curvature.curvature, "curvature")
+    known = {one.name: one for one in state.predictors if one.reason is None}
     for name, predictor in known.items():
-        row[f"explained_{name}_{where}"] = predictor["explained_deviance"]
+        row[f"explained_{name}_{where}"] = predictor.explained.estimate
         if name in ("reduced_radius", "grain_size"):
-            for part in LIMITS:
-                key = f"difference_to_branch_length{part}"
-                row[f"{name}_over_length{part}_{where}"] = predictor.get(key)
+            row |= _at(where, predictor.difference or _UNKNOWN, f"{name}_over_length")
     for name in ("branch_length", "reduced_radius"):
         if name in known:
-            exponent = Interval(**known[name]["parameters"]["exponent"])
-            for part, value in zip(LIMITS, exponent, strict=True):
-                row[f"exponent_of_{name}{part}_{where}"] = value
+            row |= _at(where, known[name].parameters["exponent"], f"exponent_of_{name}")
+    return {**row, f"best_predictor_{where}": _best(known.values())}
+
+
+def _best(predictors: Iterable[FittedPredictor]) -> str | None:
+    """Return which predictor explains most, None where two explain the same or none is known."""
     # Of those with one exponent or two: the full surface is the ceiling, no rival.
-    scored = {
-        name: p["explained_deviance"]
-        for name, p in known.items()
-        if name != "surface" and p["explained_deviance"] is not None
-    }
-    ranked = sorted(scored, key=scored.get, reverse=True)
+    explained = {one.name: one.explained.estimate for one in predictors if one.name != "surface"}
+    known = [(value, name) for name, value in explained.items() if value == value]
+    ranked = sorted(known, reverse=True)
     # With two lengths of branches, or none apart, all say the same.
-    tied = len(ranked) < 2 or scored[ranked[0]] - scored[ranked[1]] < _TIED
-    row[f"best_predictor_{where}"] = None if tied else ranked[0]
-    return row
+    if len(ranked) < 2 or ranked[0][0] - ranked[1][0] < _TIED:
+        return None
+    return ranked[0][1]
 
 
-def _lengths(numbers):
-    near = numbers["near_jamming"]
-    row = {
-        "distance_near": near["solid_fraction_above_jamming"],
-        "mean_length_near_m": near["mean_length_m"],
-    }
-    for prediction in near["predictions"]:
-        row[f"ks_{prediction['name']}_near"] = prediction["kolmogorov_smirnov"]
+def _lengths(numbers: Mapping) -> dict[str, Any]:
+    row = {}
+    if "near_jamming" in numbers:
+        near = numbers["near_jamming"]
+        row["distance_near"] = near["solid_fraction_above_jamming"]
+        row["mean_length_near_m"] = near["mean_length_m"]
+        for prediction in near["predictions"]:
+            row[f"ks_{prediction['name']}_near"] = prediction["kolmogorov_smirnov"]
     for prediction in numbers["end"]["predictions"]:
         if prediction["name"] in ("random_contact", "parking", "configuration"):
             row[f"ks_{prediction['name']}_end"] = prediction["kolmogorov_smirnov"]
-    for name in interval_names("assortativity_of_radii"):
-        row[name] = numbers["end"].get(name)
-    return row
+    return row | Interval.read(numbers["end"], "assortativity_of_radii").named(
+        "assortativity_of_radii"
+    )
 
 
-def _coordination(numbers, states, intervals):
+def _coordination(numbers: Mapping) -> dict[str, Any]:
+    row = {}
+    if "near_jamming" in numbers:
+        near = numbers["near_jamming"]
+        row["coordination_number_near"] = near["coordination_number"]
+        row["rattler_fraction_near"] = near["rattler_fraction"]
+    return {**row, "coordination_number_end": numbers["end"]["coordination_number"]}
+
+
+def _jamming_law(states: Any, intervals: Mapping[str, Any]) -> dict[str, Any]:
     seeds = [seed for _, seed in states.groupby("seed_number")]
-    found = jamming_law_fit(
+    law = jamming_law_fit(
         [seed["solid_fraction_above_jamming"] for seed in seeds],
         [seed["mechanical_coordination_number"] for seed in seeds],
         isostatic=[seed["isostatic_number"] for seed in seeds],
         **intervals,
         rng=Resampling.FINDINGS.rng(),
     )
-    laws = {
-        f"jamming_law_{name}": found[name]
+    return {
+        f"jamming_law_{name}": law[name]
         for kind in ("prefactor", "exponent")
         for name in interval_names(kind)
     }
-    return {
-        "coordination_number_near": numbers["near_jamming"]["coordination_number"],
-        "rattler_fraction_near": numbers["near_jamming"]["rattler_fraction"],
-        "coordination_number_end": numbers["end"]["coordination_number"],
-        **laws,
-    }
 
 
-def _shared(end):
-    shielding, forces = end["shielding"], end["forces"]
-    tails = {tail["threshold"]: tail for tail in forces["tails"]}
-    branches = shielding["branches"]
-    row = {name: branches.get(name) for name in interval_names("shielding_exponent")}
-    for name in (*interval_names("unequal_over_equal"), "radius_ratio_to", "unequal_branches"):
-        row[f"shielding_{name}"] = branches.get(name)
+def _shielding(shielding: Mapping) -> dict[str, Any]:
+    branches, grains = shielding["branches"], shielding["grains"]
+    row = Interval.read(branches, "shielding_exponent").named("shielding_exponent")
+    row |= Interval.read(branches, "unequal_over_equal").named("shielding_unequal_over_equal")
+    row["shielding_radius_ratio_to"] = branches.get("radius_ratio_to")
+    row["shielding_unequal_branches"] = branches.get("unequal_branches")
     row["shielding_claim_per_branch"] = branches.get("claim")
     for name in ("largest_neighbour_ratio", "neighbour_ratio_from", "grains"):
-        row[f"shielding_{name}"] = shielding["grains"][name]
+        row[f"shielding_{name}"] = grains[name]
     for reading in ("contact", "grain", "volume"):
-        for name in interval_names(f"energy_per_{reading}"):
-            row[f"shielding_{name}"] = shielding["grains"][name]
-        row[f"shielding_claim_per_{reading}"] = shielding["grains"][f"claim_per_{reading}"]
+        name = f"energy_per_{reading}"
+        row |= Interval.read(grains, name).named(f"shielding_{name}")
+        row[f"shielding_claim_per_{reading}"] = grains[f"claim_per_{reading}"]
     # Of all grains it is no power of the radius, as rattlers hold nothing.
-    for name in interval_names("exponent_load_bearing"):
-        row[f"grain_energy_{name}"] = shielding["grain_energy"].get(name)
-    for name in interval_names("exponent"):
-        row[f"force_{name}"] = forces["by_length"].get(name)
-    for name in (*interval_names("decay_rate"), *interval_names("squared_variation")):
-        row[f"force_tail_{name}"] = tails[_TAIL][name]
+    bearing = Interval.read(shielding["grain_energy"], "exponent_load_bearing")
+    return row | bearing.named("grain_energy_exponent_load_bearing")
+
+
+def _forces(end: Mapping) -> dict[str, Any]:
+    forces, stress = end["forces"], end["stress"]
+    tail = next(one for one in forces["tails"] if one["threshold"] == _TAIL)
+    row = Interval.read(forces["by_length"], "exponent").named("force_exponent")
+    for name in ("decay_rate", "squared_variation"):
+        row |= Interval.read(tail, name).named(f"force_tail_{name}")
     for kind in ("branches", "forces"):
         for name in ("deviator_over_expected", "by_chance_low", "by_chance_high"):
             row[f"fabric_{kind}_{name}"] = end["fabric"][kind][name]
-    for name in (*interval_names("coarse_half_stress_share"), *interval_names("sharing_index")):
-        row[name] = end["stress"][name]
+    for name in ("coarse_half_stress_share", "sharing_index"):
+        row |= Interval.read(stress, name).named(name)
     return row
-
-
-def verdicts(rows):
-    """Return what the rows say together: which samples are on which side of each question.
-
-    Parameters
-    ----------
-    rows : list of dict
-        From `finding_row`.
-
-    Returns
-    -------
-    dict
-        Lists of names: `known` samples; three_<at_end, at_distance>_<holds, below, above>, by the
-        interval of n; `power_law_fails`, by that of the curvature; best_<predictor> at the end;
-        reduced_radius_better and grain_size_worse than branch length, by the paired interval;
-        lengths_good and lengths_bad, by the distance of random parking near jamming; and
-        claim_<contact, grain, volume, branch>_<supported, contradicted, undecided, no_such>.
-    """
-    found = {"known": [row["sample"] for row in rows if row.get("exponent_at_end") is not None]}
-
-    def sort(key, row, condition):
-        found.setdefault(key, [])
-        if condition:
-            found[key].append(row["sample"])
-
-    for row in rows:
-        for place in ("at_end", "at_distance"):
-            low, high = (row.get(f"exponent_{place}{part}") for part in ("_low", "_high"))
-            told = _told(low, high)
-            sort(f"three_{place}_holds", row, told and low <= PAPER_EXPONENT <= high)
-            sort(f"three_{place}_below", row, told and high < PAPER_EXPONENT)
-            sort(f"three_{place}_above", row, told and low > PAPER_EXPONENT)
-        low, high = row.get("curvature_low_end"), row.get("curvature_high_end")
-        sort("power_law_fails", row, _told(low, high) and not low <= 0.0 <= high)
-        for name in ("branch_length", "reduced_radius", "both_radii", "grain_size"):
-            sort(f"best_{name}", row, row.get("best_predictor_end") == name)
-        low = row.get("reduced_radius_over_length_low_end")
-        sort("reduced_radius_better", row, _told(low) and low > 0.0)
-        high = row.get("grain_size_over_length_high_end")
-        sort("grain_size_worse", row, _told(high) and high < 0.0)
-        distance = row.get("ks_parking_near")
-        sort("lengths_good", row, _told(distance) and distance <= GOOD_DISTANCE)
-        sort("lengths_bad", row, _told(distance) and distance > GOOD_DISTANCE)
-        for reading in ("contact", "grain", "volume", "branch"):
-            answer = row.get(f"shielding_claim_per_{reading}")
-            for claim in ("supported", "contradicted", "undecided"):
-                sort(f"claim_{reading}_{claim}", row, answer == claim)
-            nothing = answer in ("no such grain", "no such branch")
-            sort(f"claim_{reading}_no_such", row, nothing)
-    return found
-
-
-def _told(*values):
-    return all(value is not None and np.isfinite(value) for value in values)

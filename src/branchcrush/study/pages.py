@@ -1,110 +1,165 @@
-"""The tables over all samples, and the page that a person opens."""
+"""The pages that a person opens: a part a sample, and all samples judged together."""
 
 import base64
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, StrictUndefined
 
 from branchcrush import __version__
-from branchcrush.statistics.intervals import interval_names
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.files.tables import Table
+from branchcrush.statistics.intervals import LIMITS, Interval, interval_text
+from branchcrush.study.verdicts import GOOD_DISTANCE, verdicts
 
 
-def render_report(template, samples):
+@dataclass(frozen=True)
+class SamplePage:
+    """What the report shows of a sample.
+
+    Parameters
+    ----------
+    name : str
+    settings : mapping
+        From `config.schema.Sample.settings`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+    model, statistics, certificate, grading : mapping
+        `thermodynamics.json`, `branch_lengths.json`, `certificate.json` and `grading.json`.
+    figures : mapping of str to path-like
+        By name of the figure.
+    """
+
+    name: str
+    settings: Mapping[str, Any]
+    fit: EnergySplitFit
+    model: Mapping[str, Any]
+    statistics: Mapping[str, Any]
+    certificate: Mapping[str, Any]
+    grading: Mapping[str, Any]
+    figures: Mapping[str, Any]
+
+    @property
+    def one_state(self) -> bool:
+        """Whether n is known in one state only, the end."""
+        return self.fit.reason is None and self.fit.near_jamming is None
+
+
+def render_report(template: str, samples: Sequence[SamplePage]) -> str:
     """Return the report as one HTML page with its figures inside.
 
     Parameters
     ----------
     template : str
         Jinja source.
-    samples : list of dict
-        name, settings, fit, model, statistics, certificate, grading and figures of each sample.
+    samples : list of SamplePage
 
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> render_report("{{ samples | length }} samples", [])
+    '0 samples'
     """
-    environment = Environment(autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {
-        "image": _image,
-        "interval": _interval,
-        "number": _number,
-        "estimate": _estimate,
-    }
     # A result without data says why; the others have no reason to give.
-    parts = ("fit", "model", "statistics")
     pages = [
-        {**sample, **{part: {"reason": None, **sample[part]} for part in parts}}
-        for sample in samples
+        replace(
+            page,
+            model={"reason": None, **page.model},
+            statistics={"reason": None, **page.statistics},
+        )
+        for page in samples
     ]
-    for page in pages:
-        page["fit"]["predictors"] = [
-            {"reason": None, "left_out_reason": None, **predictor}
-            for predictor in page["fit"].get("predictors", [])
-        ]
-        page["fit"]["curvature"] = {"reason": None, **page["fit"].get("curvature", {})}
-    return environment.from_string(template).render(samples=pages, version=__version__)
+    return _environment().from_string(template).render(samples=pages, version=__version__)
 
 
-def render_findings(template, rows, verdicts, good, figures):
+def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:
     """Return the page on which all samples are judged together, its figures inside.
 
     Parameters
     ----------
     template : str
         Jinja source.
-    rows : list of dict
-        From `study.findings.finding_row`, None where there is no number.
-    verdicts : dict
-        From `study.findings.verdicts`.
-    good : float
-        Up to which distance a prediction of branch lengths is called good [-].
-    figures : dict
-        Paths by name.
+    rows : DataFrame
+        `findings.csv`.
+    figures : mapping of str to path-like
+        By name of the figure.
 
     Returns
     -------
     str
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> rows = pd.DataFrame({"sample": ["sand"], "exponent_at_end": [float("nan")]})
+    >>> render_findings("{{ rows | length }} sample, {{ verdicts.known | length }} known", rows, {})
+    '1 sample, 0 known'
     """
-    environment = Environment(autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"image": _image, "number": _number, "estimate": _estimate}
+    known = rows.astype(object).where(rows.notna(), None).to_dict("records")
     # A study of which no sample has a number has no column for it.
-    rows = [defaultdict(lambda: None, row) for row in rows]
-    return environment.from_string(template).render(
-        rows=rows,
-        verdicts=verdicts,
-        distance=next((row["distance"] for row in rows if row["distance"] is not None), None),
-        good=good,
-        figures=figures,
-        version=__version__,
+    records = [defaultdict(lambda: None, row) for row in known]
+    return (
+        _environment()
+        .from_string(template)
+        .render(
+            rows=records,
+            verdicts=verdicts(known),
+            distance=next((d for d in (row["distance"] for row in records) if d is not None), None),
+            good=GOOD_DISTANCE,
+            figures=figures,
+            version=__version__,
+        )
     )
 
 
-def _estimate(row, name, form="%.2f"):
-    """Format an estimate with its interval."""
-    value, low, high = (row.get(key) for key in interval_names(name))
-    if value is None or value != value:
+def _environment() -> Environment:
+    environment = Environment(autoescape=True, undefined=StrictUndefined)
+    environment.filters |= {
+        "estimate": _estimate,
+        "exponent": _exponent,
+        "image": _image,
+        "interval": _interval,
+        "number": _number,
+    }
+    return environment
+
+
+def _interval(row: Mapping, name: str, where: str = "") -> Interval:
+    """Return the interval of a row of the findings, its columns name, limit and state."""
+    values = (row[f"{name}{limit}{where}"] for limit in LIMITS)
+    return Interval(*(float("nan") if value is None else value for value in values))
+
+
+def _estimate(interval: Interval | None, form: str = "%.2f") -> str:
+    """Format an estimate with its interval; either may be missing."""
+    if interval is None or interval.estimate != interval.estimate:
         return "none"
-    if low is None or low != low:
-        return form % value
-    return f"{form % value} ({form % low} to {form % high})"
+    if interval.low != interval.low:
+        return form % interval.estimate
+    return f"{form % interval.estimate} ({form % interval.low} to {form % interval.high})"
 
 
-def _image(path):
+def _exponent(fit: EnergySplitFit) -> str:
+    """Format n with its interval and what that is of."""
+    if fit.reason is not None:
+        return "none"
+    if fit.exponent.low != fit.exponent.low:
+        return interval_text(*fit.exponent)
+    n = fit.exponent
+    interval = f"{fit.confidence:.0%} interval {n.low:.2f} to {n.high:.2f}"
+    return f"{n.estimate:.2f} ({interval})"
+
+
+def _image(path: Any) -> str:
     return "data:image/png;base64," + base64.b64encode(Path(path).read_bytes()).decode()
 
 
-def _number(value, form="%.3f"):
+def _number(value: float | None, form: str = "%.3f") -> str:
     """Format a number that may be missing."""
     return "none" if value is None or value != value else form % value
-
-
-def _interval(fit):
-    if fit["reason"]:
-        return "none"
-    if fit["exponent_low"] is None:
-        return f"{fit['exponent']:.2f} (one seed: no interval)"
-    return (
-        f"{fit['exponent']:.2f} ({fit['confidence']:.0%} interval "
-        f"{fit['exponent_low']:.2f} to {fit['exponent_high']:.2f})"
-    )

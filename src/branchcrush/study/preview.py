@@ -1,14 +1,16 @@
 """What a study will be, cost and take, before it runs."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
+from branchcrush.branches.lengths import random_contact_moment
+from branchcrush.crushing.model import admissibility_problem
+from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.curves import grading_summary
+from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.representativity import representativity
 from branchcrush.loading.sample import Sample
-from branchcrush.loading.targets import (
-    expected_overlap_ratio,
-    planned_steps,
-)
+from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.packings.geometry import UNIT_SPHERE
 
@@ -35,35 +37,39 @@ class Plan(NamedTuple):
     force_evaluations: float  # of one packing
     seconds: float  # of one core, all seeds and refined ones together
     memory: float  # of one job [bytes]
-    warnings: list
+    warnings: list[str]
 
 
-def sample_plan(sample: Sample, seconds_per_grain: float) -> Plan:
-    """Return what a sample will be and cost.
+def sample_plan(sample: Sample, seconds_per_grain: float, ultimate: Grading | None) -> Plan:
+    """Return what a sample will be and cost, and what is to be warned of.
 
     Parameters
     ----------
     sample : Sample
     seconds_per_grain : float
         That a force evaluation takes on this machine [s].
+    ultimate : Grading or None
+        From `gradings.curves.ultimate_grading`: what the crushing model crushes the grains to.
 
     Returns
     -------
     Plan
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.mixtures import single
+    >>> from branchcrush.loading.targets import Loading
+    >>> from branchcrush.packings.contact_laws import LinearContact
+    >>> sample = Sample(grading=single(1e-3), sampling="random", grains=1000, boundary="walls",
+    ...                 initial_solid_fraction=0.16, law=LinearContact(1e6), seeds=(1, 2),
+    ...                 loading=Loading("edge_reduction", 0.4), strain_step=1.7e-3)
+    >>> plan = sample_plan(sample, 1e-7, None)
+    >>> plan.force_evaluations, round(plan.seconds, 9), plan.warnings
+    (34200.0, 6.84, [])
     """
     grading, loading, grains = sample.grading, sample.loading, sample.grains
     solid = UNIT_SPHERE * grading.moment(3) * grains
-    standing = representativity(grading, grains, sample.end)
-    warnings = [] if standing.verdict == "accept" else [standing.message]
-    overlap = 0.0
-    if loading.stresses:
-        radius = float(grading.mass_ppf(0.5))
-        overlap = expected_overlap_ratio(loading.stresses[-1], radius, sample.law)
-        if overlap > OVERLAP_FLAG:
-            warnings.append(
-                f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
-                f"{OVERLAP_FLAG:.0%}; ask for less stress or raise the stiffness"
-            )
+    overlap = _overlap_ratio(sample)
     steps, states = planned_steps(
         loading, sample.initial_solid_fraction, sample.strain_step, overlap
     )
@@ -84,11 +90,44 @@ def sample_plan(sample: Sample, seconds_per_grain: float) -> Plan:
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
         memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
-        warnings=warnings,
+        warnings=_warnings(sample, overlap, ultimate),
     )
 
 
-def preview_text(plans, cores, time_step):
+def _overlap_ratio(sample: Sample) -> float:
+    """Return about how deep grains are pressed together at the end; 0 of strains [-]."""
+    stresses = sample.loading.stresses
+    if not stresses:
+        return 0.0
+    radius = float(sample.grading.mass_ppf(0.5))
+    return expected_overlap_ratio(stresses[-1], radius, sample.law)
+
+
+def _warnings(sample: Sample, overlap: float, ultimate: Grading | None) -> list[str]:
+    warnings = []
+    standing = representativity(sample.grading, sample.grains, sample.end)
+    if standing.verdict != "accept":
+        warnings.append(standing.message)
+    if overlap > OVERLAP_FLAG:
+        warnings.append(
+            f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
+            f"{OVERLAP_FLAG:.0%}; ask for less stress or raise the stiffness"
+        )
+    if ultimate is not None:
+        initial, crushed = (
+            random_contact_moment(grading, PAPER_EXPONENT) for grading in (sample.grading, ultimate)
+        )
+        problem = admissibility_problem(initial, crushed)
+        if problem is not None:
+            # n is not known yet: the paper's is near enough to tell.
+            warnings.append(
+                f"the crushing model will have no curves at the paper's n = {PAPER_EXPONENT:g}, "
+                f"since {problem}"
+            )
+    return warnings
+
+
+def preview_text(plans: Mapping[str, Plan], cores: int, time_step: str) -> str:
     """Return the plans of all samples as text for a person.
 
     Parameters

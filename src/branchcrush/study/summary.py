@@ -1,13 +1,14 @@
 """Print what a run came to: `python -m branchcrush.study.summary results`."""
 
 import sys
+from os import PathLike
 from pathlib import Path
 
 from branchcrush.files.tables import read_table
 from branchcrush.statistics.intervals import interval_text
 
 
-def summary(results):
+def summary(results: str | PathLike[str]) -> str:
     """Return the exponent of every sample with its interval, and where to look, as text.
 
     Parameters

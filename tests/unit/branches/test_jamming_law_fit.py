@@ -91,8 +91,10 @@ def test_no_state_in_the_range_gives_no_law_and_no_warning(above):
     assert np.isnan([fit["prefactor"], fit["exponent"], fit["free_prefactor"]]).all()
 
 
-def test_states_at_one_distance_give_a_prefactor_alone():
-    fit = jamming_law_fit([[0.05] * 7], [[7.0, 7.1, 7.2, 7.3, 7.4, 7.5, 7.6]], rng=None)
+@pytest.mark.parametrize("number", [3, 7, 13])
+@pytest.mark.parametrize("distance", [0.0041, 0.013, 0.05, 0.07])
+def test_states_at_one_distance_give_a_prefactor_alone(distance, number):
+    fit = jamming_law_fit([[distance] * number], [np.linspace(7.0, 7.6, number)], rng=None)
     assert np.isfinite(fit["prefactor"]) and np.isnan(fit["exponent"])
 
 

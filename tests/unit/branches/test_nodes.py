@@ -101,3 +101,9 @@ def test_a_long_tail_of_no_grains_has_no_part_in_the_moments():
     radius, share = grading_nodes(grading)
     for order in (1, 2, 3):
         assert share @ radius**order == pytest.approx(grading.moment(order), rel=1e-3)
+
+
+def test_a_hundred_single_radii_are_kept_as_they_are_and_more_are_cut_into_cells():
+    kept, cut = (np.linspace(1.0, 2.0, number) for number in (100, 101))
+    assert grading_nodes(from_radii(kept), cells=10)[0].tolist() == kept.tolist()
+    assert grading_nodes(from_radii(cut), cells=10)[0].size <= 20

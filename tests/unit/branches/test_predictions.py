@@ -38,6 +38,13 @@ def triangle_shares(edges):
     return np.diff(below)
 
 
+def test_narrow_bins_begin_and_end_a_thousandth_of_the_largest_radius_beyond():
+    edges = fine_edges(1.0, 2.0)
+    assert edges.size == 998
+    assert_allclose(edges[[0, -1]], [1.998, 4.002], rtol=1e-14)
+    assert_allclose(np.diff(edges), 2.004 / 997, rtol=1e-10)
+
+
 # --- pairs ---------------------------------------------------------------------------------------
 
 
@@ -181,9 +188,12 @@ def test_a_distribution_is_at_no_distance_from_itself_whatever_its_scale():
 def test_flat_distributions_are_as_far_apart_as_they_are_shifted(shift):
     counts, shares = np.zeros(250), np.zeros(250)
     counts[:100], shares[shift : shift + 100] = 1, 0.01
+    shares[shift + 30 : shift + 60] += 1e-9
     found = distances(counts, shares, np.linspace(1.0, 3.5, 251))
-    assert found["kolmogorov_smirnov"] == pytest.approx(shift / 100, abs=1e-12)
-    assert found["mean_length_m"] == pytest.approx(1.5 + shift / 100, rel=1e-12)
+    assert found["kolmogorov_smirnov"] == pytest.approx(shift / 100, abs=1e-7)
+    # A tenth of the range, 25 bins, fits into the 30 slightly higher ones at six places.
+    assert found["mode_length_m"] == pytest.approx(1.45 + shift / 100, rel=1e-9)
+    assert found["mean_length_m"] == pytest.approx(1.5 + shift / 100, rel=1e-8)
 
 
 def test_distance_of_drawn_lengths_is_that_of_two_samples():

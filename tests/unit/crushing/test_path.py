@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.crushing.elasticity import PowerLawElasticity
-from branchcrush.crushing.model import CrushingLaw
+from branchcrush.crushing.law import CrushingLaw
 from branchcrush.crushing.path import crushing_path
 from branchcrush.errors import AdmissibilityError
 

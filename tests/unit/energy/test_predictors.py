@@ -251,3 +251,28 @@ def test_branches_without_energy_are_left_out_of_the_columns():
     assert_allclose(np.exp(large), [0.5, 1.0])
     assert energy.tolist() == [5.0, 7.0]
     assert_allclose(np.exp(log_length(small, large)), [0.75, 1.75])
+
+
+def test_branches_with_more_than_a_hundred_millionth_of_the_mean_are_kept():
+    # The mean of the four is 1.
+    _, _, energy = branch_columns(np.ones(4), np.ones(4), [2.0, 2.0, 3e-8, 3e-9], 1.0)
+    assert energy.tolist() == [2.0, 2.0, 3e-8]
+
+
+# --- registry ------------------------------------------------------------------------------------
+
+
+def test_every_predictor_has_a_look_of_its_own():
+    assert list(PREDICTORS) == list(LAWS)
+    for part in ("label", "color", "marker"):
+        assert len({getattr(entry, part) for entry in PREDICTORS.values()}) == len(PREDICTORS)
+    length = PREDICTORS["branch_length"]
+    assert (length.label, length.color, length.marker) == ("branch length l", "#1f4e79", "o")
+
+
+def test_exponent_is_that_of_the_branch_length_alone():
+    seeds = study(np.random.default_rng(17), 3, 200, lambda s, g: (np.exp(s) + np.exp(g)) ** 3)
+    by_length, *others = compared_predictors(seeds, resamples=50)
+    assert by_length.exponent == by_length.parameters["exponent"].estimate
+    assert by_length.exponent == pytest.approx(3.0, abs=0.5)
+    assert [other.exponent for other in others] == [None] * 4

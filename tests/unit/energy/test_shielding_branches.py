@@ -159,8 +159,10 @@ def test_thirty_branches_as_unequal_as_the_claim_answer_it(unequal, claim):
     # Lengths from 1 to 2 whatever the ratio, and E = l^3 exactly: nothing is shielded.
     seeds = []
     for few in unequal:
-        ratio = np.concatenate([np.full(few, 0.08), np.full(100, 0.97), np.full(100, 0.5)])
-        length = np.concatenate([np.linspace(1.0, 2.0, n) for n in (few, 100, 100)])
+        # Those of 0.15 are not as unequal, however many.
+        numbers = (few, 50, 100, 100)
+        ratio = np.repeat([0.08, 0.15, 0.5, 0.97], numbers)
+        length = np.concatenate([np.linspace(1.0, 2.0, n) for n in numbers])
         large = np.log(length / (1.0 + ratio))
         seeds.append((large + np.log(ratio), large, length**3))
     table, summary = branch_shielding(seeds, **options())
@@ -176,3 +178,13 @@ def test_a_radius_ratio_on_an_edge_is_in_the_bin_below():
     assert table["radius_ratio_high"][[1, 3, 7, 10]].tolist() == [0.1, 0.3, 0.7, 1.0]
     assert table["branches"].tolist() == [0, 200, 0, 200, 0, 0, 0, 200, 0, 0, 200]
     assert_allclose(table["mean_radius_ratio"][[1, 3, 7, 10]], [0.1, 0.3, 0.7, 1.0])
+
+
+def test_law_of_equal_lengths_is_that_of_narrow_bins():
+    # Ratios rise with the length, from 0.1 to 1, and E = l^3 exactly. In wide bins of length the
+    # unequal branches of each would seem to hold less than they should.
+    ratio = np.linspace(0.11, 1.0, 3000)
+    large = np.log(np.geomspace(0.3, 2.0, 3000) / (1.0 + ratio))
+    seeds = [(large + np.log(ratio), large, np.geomspace(0.3, 2.0, 3000) ** 3)] * 2
+    table, _ = branch_shielding(seeds, **options())
+    assert_allclose(table["energy_ratio"][2:], 1.0, atol=0.01)

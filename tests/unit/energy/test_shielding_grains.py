@@ -80,6 +80,13 @@ def test_fewer_than_ten_such_grains_decide_nothing_and_are_shown_with_the_next_l
     assert found["energy_per_contact_low"] > 0.1 and found["claim_per_contact"] == "undecided"
 
 
+@pytest.mark.parametrize(("large", "claim"), [(9, "undecided"), (10, "contradicted")])
+def test_ten_such_grains_decide(large, claim):
+    made = [large_in_fines(3.0)] * large + [large_in_fines(3.0, size=0.6)] * (20 - large)
+    _, found = grain_shielding(made, 1.0, **options())
+    assert (found["grains_ten_times_larger"], found["claim_per_contact"]) == (large, claim)
+
+
 def test_grains_that_are_judged_are_all_from_the_given_ratio_on():
     made = [large_in_fines(3.0)] * 3 + [large_in_fines(1.0, size=0.6)] * 7
     table, found = grain_shielding(made, 1.0, **options())

@@ -130,6 +130,10 @@ def test_share_below_the_mean_is_that_of_the_law(draw, share):
     assert found.low < found.estimate < found.high
 
 
+def test_forces_of_exactly_the_mean_are_not_below_it():
+    assert share_below_mean([[1.0, 1.0, 0.5, 1.5]], rng=None).estimate == 0.25
+
+
 # --- tail ----------------------------------------------------------------------------------------
 
 
@@ -185,6 +189,12 @@ def test_two_equal_excesses_have_no_variation_and_one_has_no_tail():
     assert_allclose(tail["share_above"], 2.0 / 3.0)
     assert np.isnan(force_tail([[0.5, 3.0]], 1.0, rng=None)["decay_rate"])
     assert np.isnan(force_tail([[0.5, 1.0]], 1.0, rng=None)["squared_variation"])
+
+
+def test_a_force_of_exactly_the_threshold_is_not_above_it():
+    tail = force_tail([[1.0, 1.0, 2.0, 4.0]], 1.0, rng=None)
+    # Excesses of 1 and 3: mean 2, variance 1.
+    assert (tail["share_above"], tail["decay_rate"], tail["squared_variation"]) == (0.5, 0.5, 0.25)
 
 
 # --- length --------------------------------------------------------------------------------------

@@ -169,6 +169,17 @@ def test_only_forces_that_depend_on_direction_lean():
     assert_allclose(summary["forces"]["deviator_of_mean"], 0.1, atol=0.03)
 
 
+def test_each_seed_counts_by_its_own_number_of_branches():
+    # One branch alone has q = 1 of 1 expected, three at right angles 0; their mean F is
+    # diag(4, 1, 1)/6, so q = sqrt(3/2) |diag(2, -1, -1)|/6 = 1/2.
+    one, three = np.array([[1.0, 0.0, 0.0]]), np.eye(3)
+    _, summary = fabric_result([one, three], [np.ones(1), np.ones(3)])
+    for found in summary.values():
+        assert_allclose(found["deviator_over_expected"], np.sqrt(0.5), atol=1e-12)
+        assert_allclose(found["deviator_of_mean"], 0.5)
+        assert_allclose(found["expected_deviator_of_mean"], np.sqrt(1.0 + 1 / 3) / 2)
+
+
 def test_as_many_forces_as_branches_are_needed():
     with pytest.raises(ValueError, match="zip"):
         fabric_result([np.eye(3)], [])

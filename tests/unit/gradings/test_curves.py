@@ -212,8 +212,8 @@ def test_diameter_of_a_percentage_is_read_off_the_curve():
 
 def test_median_diameter_by_mass_of_the_uniform_grading():
     # (D/D_M)^4 = 1/2
-    found = particle_diameter(uniform(0.5e-6, 0.5), 50.0)
-    assert found == pytest.approx(0.5**0.25, rel=1e-12)
+    result = particle_diameter(uniform(0.5e-6, 0.5), 50.0)
+    assert result == pytest.approx(0.5**0.25, rel=1e-12)
 
 
 def test_summary_of_fullers_curve_follows_from_its_formula():
@@ -222,19 +222,19 @@ def test_summary_of_fullers_curve_follows_from_its_formula():
     d10, d30, d50, d60 = (
         (low**q + x * (high**q - low**q)) ** (1 / q) for x in (0.1, 0.3, 0.5, 0.6)
     )
-    found = grading_summary(fuller(low / 2, high / 2, q))
-    assert_allclose([found["D_min_m"], found["D_max_m"]], [low, high], rtol=1e-15)
-    diameters = [found[f"D{x}_m"] for x in (10, 30, 50, 60)]
+    result = grading_summary(fuller(low / 2, high / 2, q))
+    assert_allclose([result["D_min_m"], result["D_max_m"]], [low, high], rtol=1e-15)
+    diameters = [result[f"D{x}_m"] for x in (10, 30, 50, 60)]
     assert_allclose(diameters, [d10, d30, d50, d60], rtol=1e-12)
-    assert found["uniformity_coefficient"] == pytest.approx(d60 / d10, rel=1e-12)
-    assert found["curvature_coefficient"] == pytest.approx(d30**2 / d10 / d60, rel=1e-12)
+    assert result["uniformity_coefficient"] == pytest.approx(d60 / d10, rel=1e-12)
+    assert result["curvature_coefficient"] == pytest.approx(d30**2 / d10 / d60, rel=1e-12)
 
 
 def test_summary_of_one_size():
-    found = grading_summary(single(2e-3))
-    assert {found[key] for key in found if key.startswith("D")} == {4e-3}
-    assert (found["uniformity_coefficient"], found["curvature_coefficient"]) == (1.0, 1.0)
-    assert found["mean_radius_3_m3"] == pytest.approx(8e-9, rel=1e-15)
+    result = grading_summary(single(2e-3))
+    assert {result[key] for key in result if key.startswith("D")} == {4e-3}
+    assert (result["uniformity_coefficient"], result["curvature_coefficient"]) == (1.0, 1.0)
+    assert result["mean_radius_3_m3"] == pytest.approx(8e-9, rel=1e-15)
 
 
 def test_grading_table_holds_target_and_realised_curves():

@@ -8,36 +8,53 @@ from numpy.testing import assert_allclose
 
 from branchcrush.gradings.forms import fractal, lognormal, normal, uniform
 from branchcrush.gradings.mixtures import from_radii, mixture, single
-from branchcrush.gradings.representativity import realised_gap, representativity
+from branchcrush.gradings.representativity import (
+    realised_gap,
+    representativity,
+    representativity_report,
+)
 from branchcrush.gradings.sampling import sampled_radii
 
 # --- before drawing ------------------------------------------------------------------------------
 
 
 def test_one_size_needs_a_box_of_five_diameters_only():
-    found = representativity(single(1e-3), 1000, np.pi / 6)
+    standing = representativity(single(1e-3), 1000, np.pi / 6)
     # At pi/6 a grain has a cube of its own diameter.
-    assert_allclose(found.box_edge, 10 * 2e-3, rtol=1e-12)
-    assert_allclose(found.edge_over_diameter, 10.0, rtol=1e-12)
-    assert found.coarse_grains == 1000
-    assert (found.largest_diameter, found.expected_largest_diameter) == (2e-3, 2e-3)
-    assert (found.grains_needed, found.verdict) == (125, "accept")
+    assert_allclose(standing.box_edge, 10 * 2e-3, rtol=1e-12)
+    assert_allclose(standing.edge_over_diameter, 10.0, rtol=1e-12)
+    assert standing.coarse_grains == 1000
+    assert (standing.largest_diameter, standing.expected_largest_diameter) == (2e-3, 2e-3)
+    assert (standing.grains_needed, standing.verdict) == (125, "accept")
     verdicts = [representativity(single(1.0), n, np.pi / 6).verdict for n in (26, 27, 124, 125)]
     assert verdicts == ["refuse", "warn", "warn", "accept"]
+
+
+def test_five_coarse_grains_are_refused_ten_accepted_where_the_box_is_large():
+    # A fortieth of the grains carry the coarsest tenth; at a solid fraction of 0.1 the box of five
+    # diameters needs 96 grains only.
+    share = 1 - 0.9**0.25
+    few, enough = int(np.ceil(5 / share)), int(np.ceil(10 / share))
+    judged = [
+        representativity(uniform(1e-9, 1.0), grains, 0.1).verdict
+        for grains in (few - 1, few, enough - 1, enough)
+    ]
+    assert judged == ["refuse", "warn", "warn", "accept"]
+    assert representativity(uniform(1e-9, 1.0), few, 0.1).grains_needed == enough
 
 
 def test_coarsest_tenth_of_the_uniform_grading_is_a_fortieth_of_the_grains():
     # (R/R_M)^4 = 0.9 leaves 1 - 0.9^(1/4) = 2.6 % of the number.
     share = 1 - 0.9**0.25
-    found = representativity(uniform(1e-9, 1.0), 1000, 0.5)
-    assert_allclose(found.coarse_grains, 1000 * share, rtol=1e-6)
-    assert_allclose(found.largest_diameter, 2 * 0.999**0.25, rtol=1e-6)
-    assert_allclose(found.expected_largest_diameter, 2 * 0.5**1e-3, rtol=1e-6)
+    standing = representativity(uniform(1e-9, 1.0), 1000, 0.5)
+    assert_allclose(standing.coarse_grains, 1000 * share, rtol=1e-6)
+    assert_allclose(standing.largest_diameter, 2 * 0.999**0.25, rtol=1e-6)
+    assert_allclose(standing.expected_largest_diameter, 2 * 0.5**1e-3, rtol=1e-6)
     # <R^3> = 1/4
-    assert_allclose(found.box_edge, (1000 * 4 / 3 * np.pi / 4 / 0.5) ** (1 / 3), rtol=1e-6)
+    assert_allclose(standing.box_edge, (1000 * 4 / 3 * np.pi / 4 / 0.5) ** (1 / 3), rtol=1e-6)
     by_edge = (5 * 2 * 0.999**0.25) ** 3 * 0.5 / (np.pi / 3)
-    assert found.grains_needed == np.ceil(max(10 / share, by_edge))
-    assert found.verdict == "accept"
+    assert standing.grains_needed == np.ceil(max(10 / share, by_edge))
+    assert standing.verdict == "accept"
 
 
 def test_wide_fractal_grading_by_1000_grains_is_refused_with_the_number_needed():
@@ -45,29 +62,29 @@ def test_wide_fractal_grading_by_1000_grains_is_refused_with_the_number_needed()
     # F = 0.9 is at R_90^0.4 = 0.1 R_m^0.4 + 0.9 R_M^0.4.
     coarse = (0.1 + 0.9 * 200**0.4) ** (1 / 0.4)
     share = (coarse**-2.6 - 200**-2.6) / (1 - 200**-2.6)
-    found = representativity(grading, 1000, 0.74)
-    assert_allclose(found.coarse_grains, 1000 * share, rtol=1e-8)
-    assert found.verdict == "refuse"
+    standing = representativity(grading, 1000, 0.74)
+    assert_allclose(standing.coarse_grains, 1000 * share, rtol=1e-8)
+    assert standing.verdict == "refuse"
     # The box needs more still: (5 D_99.9)^3 phi over the mean volume.
     largest = 5e-6 * (0.001 + 0.999 * 200**0.4) ** (1 / 0.4)
     cube = 5e-6**3 * 2.6 / 0.4 * (200**0.4 - 1) / (1 - 200**-2.6)
     by_edge = (10 * largest) ** 3 * 0.74 / (4 / 3 * np.pi * cube)
     assert by_edge > 10 / share
-    assert found.grains_needed == np.ceil(by_edge)
-    for words in ("1000 grains", f"{1000 * share:.3g} grains", str(found.grains_needed), "0.74"):
-        assert words in found.message
-    assert representativity(grading, found.grains_needed, 0.74).verdict == "accept"
-    assert representativity(grading, found.grains_needed - 1, 0.74).verdict == "warn"
+    assert standing.grains_needed == np.ceil(by_edge)
+    for words in ("1000 grains", f"{1000 * share:.3g} grains", str(standing.grains_needed), "0.74"):
+        assert words in standing.message
+    assert representativity(grading, standing.grains_needed, 0.74).verdict == "accept"
+    assert representativity(grading, standing.grains_needed - 1, 0.74).verdict == "warn"
 
 
 def test_few_large_grains_among_many_small_ones_are_seen_by_the_box():
     # A tenth of a percent by number of ten times the size: half of the mass.
     grading = mixture([single(0.1), single(1.0)], [1000.0, 1.0], "number")
-    found = representativity(grading, 1000, 0.6)
-    assert_allclose(found.coarse_grains, 1000 / 1001, rtol=1e-12)
-    assert found.largest_diameter == 2.0
-    assert_allclose(found.box_edge, (1000 * 4 / 3 * np.pi * 2 / 1001 / 0.6) ** (1 / 3))
-    assert found.verdict == "refuse"
+    standing = representativity(grading, 1000, 0.6)
+    assert_allclose(standing.coarse_grains, 1000 / 1001, rtol=1e-12)
+    assert standing.largest_diameter == 2.0
+    assert_allclose(standing.box_edge, (1000 * 4 / 3 * np.pi * 2 / 1001 / 0.6) ** (1 / 3))
+    assert standing.verdict == "refuse"
 
 
 def test_size_that_ends_the_mass_counts_as_a_whole():
@@ -79,22 +96,22 @@ def test_size_that_ends_the_mass_counts_as_a_whole():
 
 def test_far_end_of_a_tail_without_grains_does_not_count():
     near, far = (normal(1.0, 0.1, 0.1, end) for end in (1.6, 50.0))
-    found = [representativity(grading, 1000, 0.6) for grading in (near, far)]
-    assert_allclose(found[0].largest_diameter, found[1].largest_diameter, rtol=1e-4)
-    assert found[1].verdict == "accept"
+    standing = [representativity(grading, 1000, 0.6) for grading in (near, far)]
+    assert_allclose(standing[0].largest_diameter, standing[1].largest_diameter, rtol=1e-4)
+    assert standing[1].verdict == "accept"
 
 
 @settings(deadline=None, max_examples=20)
 @given(st.floats(1.1, 3.0), st.integers(10, 10**6), st.floats(0.3, 0.8))
 def test_verdict_agrees_with_the_number_needed(width, grains, solid_fraction):
     grading = lognormal(1.0, width, 0.01, 100.0)
-    found = representativity(grading, grains, solid_fraction)
-    assert (found.verdict == "accept") == (grains >= found.grains_needed)
-    again = representativity(grading, found.grains_needed, solid_fraction)
+    standing = representativity(grading, grains, solid_fraction)
+    assert (standing.verdict == "accept") == (grains >= standing.grains_needed)
+    again = representativity(grading, standing.grains_needed, solid_fraction)
     assert again.coarse_grains >= 10 * (1 - 1e-6)
     assert again.edge_over_diameter >= 5 * (1 - 1e-6)
-    if found.verdict == "refuse":
-        assert found.coarse_grains < 5 or found.edge_over_diameter < 3
+    if standing.verdict == "refuse":
+        assert standing.coarse_grains < 5 or standing.edge_over_diameter < 3
 
 
 def test_message_of_an_accepted_number_asks_for_nothing():
@@ -137,3 +154,26 @@ def test_gap_of_mass_quantiles_falls_with_their_number():
         for n in (100, 1000, 10_000)
     ]
     assert gaps[0] > gaps[1] > gaps[2]
+
+
+def test_report_has_the_mean_and_the_largest_gap_of_the_seeds():
+    target = mixture([single(1.0), single(2.0)], [1.0, 1.0], "mass")
+    standing = representativity(target, 9, 0.5)
+    # Eight grains of 1 m weigh as much as one of 2 m; the second seed has the latter only.
+    report = representativity_report(standing, target, [[2.0] + [1.0] * 8, [2.0]])
+    stands = report["representativity"]
+    assert stands["largest_gap_percent_mean"] == pytest.approx(25.0, rel=1e-12)
+    assert stands["largest_gap_percent_max"] == pytest.approx(50.0, rel=1e-12)
+    assert report["target"]["D_min_m"] == 2.0
+    # Smallest diameters of 2 and of 4 m; <R> of 10/9 and of 2 m.
+    assert report["realised"]["D_min_m"] == 3.0
+    assert report["realised"]["mean_radius_1_m1"] == pytest.approx((10 / 9 + 2) / 2, rel=1e-12)
+
+
+def test_report_warns_unless_the_number_is_accepted():
+    enough, few = (representativity(single(1.0), grains, np.pi / 6) for grains in (125, 124))
+    warnings = [
+        representativity_report(standing, single(1.0), [[1.0]])["representativity"]["warnings"]
+        for standing in (enough, few)
+    ]
+    assert warnings == [[], [few.message]]

@@ -41,9 +41,9 @@ def test_grains_are_as_many_as_asked_decreasing_and_within_the_support(grading, 
 def test_random_radii_follow_the_grading(grading):
     radii = sampled_radii(grading, 20_000, "random", generator())
     points = np.append(grading.number_ppf(np.linspace(0.05, 0.95, 19)), grading.discrete_part[0])
-    found = np.searchsorted(np.sort(radii), points, side="right") / radii.size
+    result = np.searchsorted(np.sort(radii), points, side="right") / radii.size
     # Four standard errors.
-    assert_allclose(found, grading.number_cdf(points), atol=4 * 0.5 / 20_000**0.5)
+    assert_allclose(result, grading.number_cdf(points), atol=4 * 0.5 / 20_000**0.5)
 
 
 def test_random_radii_of_a_continuous_grading_pass_a_test_of_their_distribution():

@@ -10,10 +10,13 @@ from branchcrush.loading.targets import (
     STRAIN_STEPS,
     STRAIN_TARGETS,
     Loading,
+    expected_overlap_ratio,
     final_solid_fraction,
     loading_targets,
+    planned_steps,
     strain_step,
 )
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
 
 RADII = np.array([1.0, 0.5, 0.25])
@@ -90,3 +93,57 @@ def test_a_better_quality_and_a_refinement_take_smaller_steps():
     assert list(STRAIN_STEPS) == ["draft", "standard", "fine"]
     assert strain_step("standard", 2) == standard / 2
     assert strain_step("draft", 4) == strain_step("standard")
+
+
+# --- what is expected of a loading ----------------------------------------------------------------
+
+
+def test_expected_overlap_of_linear_contacts_is_the_force_over_the_stiffness():
+    # Half a metre and 3.84/pi Pa: F = 4 pi P R^2/(0.64 x 6) = 1 N, over 4 N/m a quarter.
+    assert_allclose(expected_overlap_ratio(3.84 / np.pi, 0.5, LinearContact(4.0)), 0.5, rtol=1e-14)
+
+
+def test_expected_overlap_of_hertz_contacts_is_that_of_two_equal_grains():
+    # R* = R/2 = 1/4: 1 N = 16 x sqrt(1/4) x (1/4)^1.5.
+    assert_allclose(expected_overlap_ratio(3.84 / np.pi, 0.5, HertzContact(16.0)), 0.5, rtol=1e-14)
+
+
+@pytest.mark.parametrize(("law", "power"), [(LinearContact, 1.0), (HertzContact, 2 / 3)])
+def test_expected_overlap_over_the_radius_goes_with_stress_over_stiffness(law, power):
+    one = expected_overlap_ratio(1e5, 1e-3, law(1e8))
+    assert_allclose(expected_overlap_ratio(8e5, 1e-3, law(1e8)), 8**power * one, rtol=1e-13)
+    assert_allclose(expected_overlap_ratio(1e5, 1e-3, law(8e8)), one / 8**power, rtol=1e-13)
+
+
+# From this solid fraction to 0.64 it is a linear strain of 0.1.
+APPROACH = 0.64 * np.exp(-0.3)
+
+
+@pytest.mark.parametrize(("step", "steps"), [(0.01, 4 * 3), (0.025, 4), (0.024, 4 * 2), (0.1, 4)])
+def test_every_state_of_a_strain_has_the_same_whole_number_of_steps(step, steps):
+    asked = loading("solid_fraction", 0.64, approach=APPROACH)
+    assert planned_steps(asked, 0.1, step) == (steps, 4)
+
+
+def test_steps_to_stresses_go_as_far_as_grains_overlap_and_four_more_to_each():
+    asked = loading("mean_stress", [1.0, 2.0, 3.0], approach=APPROACH)
+    # (0.1 + 0.05)/0.02 = 7.5
+    assert planned_steps(asked, 0.1, 0.02, overlap=0.05) == (8 + 4 * 3, 3)
+
+
+def test_a_way_that_begins_beyond_0_64_takes_the_steps_of_the_overlap_only():
+    asked = loading("mean_stress", [1.0], approach=0.7)
+    assert planned_steps(asked, 0.1, 0.02, overlap=0.05) == (3 + 4, 1)
+
+
+@pytest.mark.parametrize(
+    ("target", "value", "there"),
+    [("solid_fraction", 0.64, (12, 4)), ("mean_stress", [1.0, 2.0], (10 + 8, 2))],
+)
+def test_the_way_back_takes_as_many_steps_and_saves_the_end_once(target, value, there):
+    steps, states = there
+    asked = loading(target, value, approach=APPROACH)
+    back = loading(target, value, approach=APPROACH, unloading=True)
+    # A little more, so that rounding does not decide.
+    assert planned_steps(asked, 0.1, 0.0100001) == there
+    assert planned_steps(back, 0.1, 0.0100001) == (2 * steps, 2 * states - 1)

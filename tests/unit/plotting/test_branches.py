@@ -1,195 +1,199 @@
-"""The figures of networks, predictors and samples draw many seeds, one seed, and one radius."""
-
-from dataclasses import replace
+"""Who touches whom: points, bars and lines against the tables they are drawn from."""
 
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib import pyplot as plt
+from matplotlib.colors import to_hex
+from numpy.testing import assert_allclose
 
-from branchcrush.branches.predictions import fine_edges, predictions
-from branchcrush.errors import FitError
-from branchcrush.files.tables import read_json, write_json
-from branchcrush.gradings.forms import uniform
-from branchcrush.gradings.mixtures import single
-from branchcrush.packings.network import state_network
-from branchcrush.plotting import branches as touching
-from branchcrush.plotting import forces, predictors
-from branchcrush.plotting import shielding as sharing
-from branchcrush.plotting import study as samples
-from branchcrush.plotting import study_networks as samples_networks
-from branchcrush.samples.branch_lengths import (
-    contact_number_rows,
-    length_prediction_rows,
-    sample_classes,
-    seed_contacts,
-    touching_summary,
-)
-from branchcrush.samples.energy_split import COLUMNS, final_energy_split, seed_branches
-from branchcrush.samples.ensemble import mean_path
-from branchcrush.samples.sharing import both_states, shared_in_state
-from branchcrush.statistics.bins import bin_edges
-from branchcrush.study.kinds import SampleKind
+from branchcrush.plotting import branches
+from branchcrush.plotting.style import STATES
 
 pytestmark = pytest.mark.filterwarnings("error")
-OPTIONS = {"confidence": 0.95, "resamples": 100}
-STATES = (4, 7)
-KIND = SampleKind("walls", "linear", {"form": "any"})
+
+# R_M [m]: lengths are drawn over it.
+LARGEST = 2e-3
 
 
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
-
-
-def packing(grading, seed, grains=150, contacts=600):
-    """Grains that touch at random, and one wall contact of each of the first ten."""
-    rng = np.random.default_rng(seed)
-    radii = grading.rvs(grains, random_state=rng)
-    parts = []
-    for state in STATES:
-        i, j = rng.integers(0, grains, (2, 2 * contacts))
-        apart = i != j
-        i, j = i[apart][:contacts], j[apart][:contacts]
-        energy = 1e6 * (radii[i] + radii[j]) ** 3 * rng.standard_exponential(contacts)
-        parts.append(
-            pd.DataFrame(
-                {
-                    "state": state,
-                    "i": i,
-                    "j": j,
-                    "radius_i_m": radii[i],
-                    "radius_j_m": radii[j],
-                    "branch_length_m": 0.99 * (radii[i] + radii[j]),
-                    "overlap_m": 1e-3 * radii[i],
-                    "normal_force_N": np.sqrt(energy),
-                    "energy_J": energy,
-                }
-            )
-        )
-    walls = {"i": np.arange(10), "overlap_m": 1e-5, "normal_force_N": 1.0}
-    walls = pd.concat([pd.DataFrame({"state": state, **walls}) for state in STATES])
-    return radii, pd.concat(parts, ignore_index=True), walls
-
-
-def path():
-    return pd.DataFrame(
+def numbers(states=(4, 7), low=0.5):
+    """Contact numbers of two classes of radius, ten times as large in the later state."""
+    rows = [
         {
-            "state": STATES,
-            "solid_fraction": [0.65, 0.7],
-            "mean_stress_Pa": [1e5, 1e6],
-            "volume_m3": 1.0,
-            "elastic_energy_J": 1.0,
-            "coordination_number": 8.0,
-            "mechanical_coordination_number": 8.0,
-            "rattler_fraction": 0.0,
+            "state": state,
+            "mean_radius_m": radius,
+            "contact_number": scale * contacts,
+            "contact_number_low": scale * contacts - low,
+            "contact_number_high": scale * contacts + 0.25,
+            "contact_number_mean_neighbour": 2.0,
+            "contact_number_self_consistent": 3.0,
+            "contact_number_parking": 4.0 * contacts,
         }
-    )
-
-
-@pytest.fixture(
-    params=[(uniform(0.2, 1.0), 3), (uniform(0.2, 1.0), 1), (single(1.0), 2)],
-    ids=["three seeds", "one seed", "one radius"],
-)
-def sample(request, tmp_path):
-    """Grading, its seeds, and a way to JSON and back, as the figures' data go."""
-    grading, number = request.param
-    seeds = [packing(grading, seed) for seed in range(number)]
-
-    def through_json(result):
-        write_json(tmp_path / "result.json", result, {})
-        return read_json(tmp_path / "result.json")
-
-    return grading, seeds, through_json
-
-
-def test_who_touches_whom(sample):
-    grading, seeds, through_json = sample
-    classes = sample_classes(grading, *seeds[0], STATES[-1])
-    found = [seed_contacts(grading, classes, *seed, STATES) for seed in seeds]
-    edges, along = fine_edges(*grading.support()), mean_path([path()] * len(seeds), 0.6)
-    models = predictions(grading, edges)
-    rows = length_prediction_rows(found, models, edges, along, **OPTIONS)
-    numbers, pairs = contact_number_rows(found, models, classes, along, **OPTIONS)
-    summary = through_json(touching_summary(found, models, rows, along, **OPTIONS))
-    table = pd.DataFrame(rows)
-    for ax in (
-        touching.plot_contact_numbers(numbers, summary, 1.0),
-        touching.plot_distances(table),
-        touching.plot_mean_lengths(table, 1.0),
-    ):
-        assert ax.get_xlabel() and ax.get_ylabel() and ax.get_legend()
-    ax = touching.plot_pairs(pairs, summary, 1.0)
-    assert ax.get_xlabel() or "one radius" in ax.texts[0].get_text()
-
-
-def test_what_is_shared(sample):
-    grading, seeds, through_json = sample
-    edges, rng = bin_edges(*grading.support()), np.random.default_rng(1)
-    classes = sample_classes(grading, *seeds[0], STATES[-1])
-    found = {}
-    for where, state in (("near_jamming", 4), ("end", 7)):
-        networks = [state_network(*seed, state) for seed in seeds]
-        networks = [replace(one, vector=rng.normal(size=(one.i.size, 3))) for one in networks]
-        found[where, state] = shared_in_state(networks, edges, classes, 1.0, **OPTIONS)
-    tables, summary = both_states(found)
-    summary = through_json(summary)
-    drawn = [
-        sharing.plot_grain_shielding(tables["shielding_grains"]),
-        forces.plot_force_distribution(tables["force_distribution"], summary),
-        forces.plot_force_by_length(tables["force_by_length"], summary, 1.0),
-        forces.plot_stress_by_radius(tables["stress_by_radius"], 1.0),
-        forces.plot_stress_sharing(tables["stress_sharing"], summary),
+        for state, scale in zip(states, (1.0, 10.0), strict=False)
+        for radius, contacts in ((1e-3, 1.0), (2e-3, 3.0))
     ]
-    if "reason" not in summary["end"]["shielding"]["branches"]:
-        drawn.append(sharing.plot_branch_shielding(tables["shielding_branches"], summary))
-    styles = samples.sample_styles({"one": KIND})
-    for plot, name in (
-        (samples_networks.plot_grain_shielding, "shielding_grains"),
-        (samples_networks.plot_stress, "stress_sharing"),
-        (samples_networks.plot_forces, "force_distribution"),
-    ):
-        drawn.append(plot({"one": tables[name]}, styles))
-    assert all(ax.get_xlabel() and ax.get_ylabel() and ax.get_legend() for ax in drawn)
+    return pd.DataFrame(rows)
 
 
-def test_predictors_and_slopes(sample):
-    grading, seeds, through_json = sample
-    edges = bin_edges(*grading.support())
-    branches = [seed_branches(contacts[[*COLUMNS]], STATES, edges) for _, contacts, _ in seeds]
-    paths = [path()] * len(seeds)
-    if grading.is_discrete:
-        with pytest.raises(FitError, match="two or more branch lengths"):
-            final_energy_split(branches, paths, edges, 0.6, **OPTIONS)
-        return
-    fit = through_json(final_energy_split(branches, paths, edges, 0.6, **OPTIONS)[1])
-    assert predictors.plot_predictors(fit).get_xlabel()
-    assert predictors.plot_slopes(fit).get_legend()
+SUMMARY = {
+    "near_jamming": {"state": 4, "solid_fraction": 0.65, "assortativity_of_radii": 0.5},
+    "end": {"state": 7, "solid_fraction": 0.7, "assortativity_of_radii": -0.1},
+}
 
 
-def test_samples_of_one_grading_have_one_colour_and_the_name_they_share():
-    other = replace(KIND, grading={"form": "other"})
-    hertz = replace(KIND, boundary="periodic", law="hertz")
-    styles = samples.sample_styles({"sand-a": KIND, "sand-b": hertz, "mud": other})
-    assert styles["sand-a"]["color"] == styles["sand-b"]["color"] != styles["mud"]["color"]
-    assert [style["grading"] for style in styles.values()] == ["sand", "sand", "mud"]
-    assert (styles["sand-a"]["line"], styles["sand-b"]["line"]) == ("--", "-")
-    assert not styles["sand-b"]["filled"]
+def test_contact_numbers_stand_at_their_radii_in_the_colour_of_their_state(shown):
+    ax = branches.plot_contact_numbers(numbers(), SUMMARY, LARGEST)
+    near, end = ax.containers
+    assert_allclose(shown.points(near[0]), [[0.5, 1.0], [1.0, 3.0]])
+    assert_allclose(shown.points(end[0]), [[0.5, 1.0], [10.0, 30.0]])
+    assert_allclose(shown.bars(end), [[9.5, 29.5], [10.25, 30.25]])
+    for drawn, where in ((near, "near_jamming"), (end, "end")):
+        assert to_hex(drawn[0].get_color()) == STATES[where][1]
+    assert [drawn.get_label() for drawn in (near, end)] == [
+        r"near jamming, $\phi$ = 0.650",
+        r"at the end, $\phi$ = 0.700",
+    ]
 
 
-def test_exponents_are_drawn_for_the_samples_of_one_law():
+def test_models_are_lines_of_their_own_columns(shown):
+    ax = branches.plot_contact_numbers(numbers(), SUMMARY, LARGEST)
+    assert_allclose(shown.line(ax, "random parking"), [[0.5, 1.0], [4.0, 12.0]])
+    assert_allclose(shown.line(ax, "solid angle, mean neighbour")[1], 2.0)
+    assert_allclose(shown.line(ax, "self-consistent, rattler cut")[1], 3.0)
+
+
+def test_one_state_is_the_end(shown):
+    table = numbers(states=(7,))
+    ax = branches.plot_contact_numbers(table, {"end": SUMMARY["end"]}, LARGEST)
+    (end,) = ax.containers
+    assert end.get_label() == r"at the end, $\phi$ = 0.700"
+    assert_allclose(shown.points(end[0]), [[0.5, 1.0], [1.0, 3.0]])
+
+
+def test_contact_numbers_of_one_seed_have_no_bars():
+    ax = branches.plot_contact_numbers(numbers(low=np.nan), SUMMARY, LARGEST)
+    assert not any(drawn.has_yerr for drawn in ax.containers)
+
+
+def pairs(expected=100.0, ratios=(2.0, 0.5, 0.5, 1.0), state=7):
+    ends = ((0.4e-3, 1e-3), (1e-3, 2e-3))
+    rows = [
+        {
+            "state": state,
+            "radius_i_low_m": first[0],
+            "radius_i_high_m": first[1],
+            "radius_j_low_m": second[0],
+            "radius_j_high_m": second[1],
+            "expected_contacts": expected,
+        }
+        for first in ends
+        for second in ends
+    ]
+    return pd.DataFrame(rows).assign(ratio=ratios)
+
+
+def test_pairs_are_squares_of_the_logarithm_to_base_two():
+    ax = branches.plot_pairs(pairs(), SUMMARY, LARGEST)
+    (mesh,) = ax.collections
+    assert_allclose(mesh.get_array(), [[1.0, -1.0], [-1.0, 0.0]])
+    assert_allclose(mesh.get_coordinates()[0, :, 0], [0.2, 0.5, 1.0])
+    assert_allclose(mesh.get_clim(), (-1.0, 1.0))
+    assert "-0.10" in ax.get_title() and "0.700" in ax.get_title()
+
+
+def test_pairs_of_few_contacts_and_of_other_states_are_left_out():
+    few = pairs().assign(expected_contacts=[100.0, 19.9, 20.0, 100.0])
+    other = pairs(state=4, ratios=[4.0] * 4)
+    mesh = branches.plot_pairs(pd.concat([other, few]), SUMMARY, LARGEST).collections[0]
+    assert np.ma.getmaskarray(mesh.get_array()).tolist() == [[False, True], [False, False]]
+    assert mesh.get_clim()[1] == 1.0
+
+
+def test_pairs_that_never_touch_are_drawn_as_a_quarter():
+    mesh = branches.plot_pairs(pairs(ratios=[0.0] * 4), SUMMARY, LARGEST).collections[0]
+    assert_allclose(mesh.get_array(), -2.0)
+
+
+def test_pairs_of_one_radius_are_no_figure():
+    one = pairs()[:1]
+    ax = branches.plot_pairs(one, SUMMARY, LARGEST)
+    assert ax.texts[0].get_text() == "no data: grains of one radius"
+
+
+def lengths(above=(0.01, 0.05)):
+    rows = [
+        {
+            "solid_fraction": 0.64 + phi,
+            "solid_fraction_above_jamming": phi,
+            "prediction": name,
+            "kolmogorov_smirnov": distance * (1.0 + number),
+            "mean_length_m": 1e-3,
+            "measured_mean_length_m": 3e-3 - 1e-3 * number,
+            "measured_mean_length_low_m": 2.8e-3 - 1e-3 * number,
+            "measured_mean_length_high_m": 3.4e-3 - 1e-3 * number,
+        }
+        for number, phi in enumerate(above)
+        for name, distance in (("parking", 0.03), ("configuration", 1e-5))
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_distances_are_those_of_each_prediction_along_the_path(shown):
+    ax = branches.plot_distances(lengths())
+    assert_allclose(shown.line(ax, "random parking"), [[0.01, 0.05], [0.03, 0.06]])
+    # Exact but for rounding, on a logarithmic axis.
+    assert_allclose(shown.line(ax, "measured contact numbers")[1], 1e-3)
+    assert ax.get_yscale() == "log"
+
+
+def test_where_jamming_is_unknown_the_solid_fraction_itself_is_drawn(shown):
+    table = lengths().assign(solid_fraction_above_jamming=np.nan)
+    ax = branches.plot_distances(table)
+    assert_allclose(shown.line(ax, "random parking")[0], [0.65, 0.69])
+    assert ax.get_xlabel() == r"solid fraction $\phi$ [-]"
+
+
+def test_mean_lengths_are_measured_with_a_band_and_predicted_as_a_level(shown):
+    ax = branches.plot_mean_lengths(lengths(), LARGEST)
+    assert_allclose(shown.line(ax, "measured"), [[0.01, 0.05], [1.5, 1.0]])
+    assert_allclose(shown.band(ax.collections[0]), [[0.01, 0.05], [1.4, 0.9], [1.7, 1.2]])
+    levels = [line for line in ax.lines if line.get_linestyle() == "--" and len(line.get_ydata())]
+    assert [line.get_ydata()[0] for line in levels] == [0.5]
+
+
+def test_mean_length_of_one_state_is_a_point_with_a_bar_on_an_axis_of_some_width(shown):
+    ax = branches.plot_mean_lengths(lengths(above=(0.05,)), LARGEST)
+    assert_allclose(shown.line(ax, "measured"), [[0.05], [1.5]])
+    assert_allclose(shown.bars(ax.containers[0]), [[1.4], [1.7]])
+    low, high = ax.get_xlim()
+    assert high - low == pytest.approx(0.05) and low < 0.05 < high
+
+
+def test_branch_lengths_are_bars_of_densities_over_the_largest_radius(shown):
     table = pd.DataFrame(
         {
-            "solid_fraction_above_jamming": [0.0, 0.1, 0.2],
-            "exponent": [2.0, 2.5, 3.0],
-            # The first says nothing, and is left out.
-            "exponent_low": [0.0, 2.4, 2.9],
-            "exponent_high": [4.0, 2.6, 3.1],
+            "length_low_m": [0.0, 2e-3],
+            "length_high_m": [2e-3, 4e-3],
+            "branches": [400, 1600],
+            "density_measured_per_m": [100.0, 400.0],
+            "density_measured_standard_error_per_m": [10.0, 20.0],
+            "density_random_contact_per_m": [200.0, 300.0],
+            "density_parking_per_m": [150.0, 350.0],
         }
     )
-    hertz = replace(KIND, law="hertz")
-    styles = samples.sample_styles({"one": KIND, "two": hertz})
-    ax = samples.plot_exponents({"one": table, "two": table}, styles, "linear")
-    assert ax.lines[0].get_xdata().tolist() == [0.1, 0.2]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["one", "the paper's n = 3"]
+    means = {"mean_length_1_m1": 2.5e-3, "eq4_length_1_m1": 2.2e-3}
+    ax = branches.plot_branch_lengths(table, means, LARGEST)
+    assert [bar.get_height() for bar in ax.patches] == pytest.approx([0.2, 0.8])
+    assert [bar.get_x() + bar.get_width() / 2 for bar in ax.patches] == pytest.approx([0.5, 1.5])
+    assert [bar.get_width() for bar in ax.patches] == pytest.approx([1.0, 1.0])
+    errors = next(drawn for drawn in ax.containers if drawn.get_label().startswith("standard"))
+    assert_allclose(shown.bars(errors), [[0.18, 0.76], [0.22, 0.84]])
+    assert_allclose(shown.line(ax, "Eq. 4: any two grains touch alike"), [[0.5, 1.5], [0.4, 0.6]])
+    assert_allclose(shown.line(ax, "random parking, at jamming")[1], [0.3, 0.7])
+    dotted = [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"]
+    assert dotted == pytest.approx([1.25, 1.1])
+    assert ax.get_xlim() == (0.0, 2.0)
+    assert "measured, 2 000 branches" in shown.texts(ax)
+
+
+def test_states_have_the_colours_of_their_names():
+    assert STATES["end"][0] == "at the end" and STATES["near_jamming"][0] == "near jamming"

@@ -3,9 +3,8 @@
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib import pyplot as plt
+from numpy.testing import assert_allclose
 
-from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import certificate
 from branchcrush.plotting.style import figure, reason
 from branchcrush.samples.certificate import LIMITS
@@ -48,12 +47,6 @@ def jamming_of(loading, unloading):
     )
 
 
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
-
-
 def drawn(tmp_path, plot, *data):
     """Draw a figure to its file, as the workflow does, and return its Axes."""
     with figure(tmp_path / "figure.png", 50) as ax:
@@ -62,23 +55,62 @@ def drawn(tmp_path, plot, *data):
     return ax
 
 
-def shown(ax):
+def legend(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()] if ax.get_legend() else []
 
 
-def test_measures_are_shown_with_their_limits(tmp_path):
-    ax = drawn(tmp_path, certificate.plot_rest, BOTH_WAYS, LIMITS)
-    heights = {line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "--"}
-    assert heights == {1e-6, 1e-4}
-    ax = drawn(tmp_path, certificate.plot_overlaps, LOADING, OVERLAP_FLAG)
-    assert "flagged from 5%" in shown(ax)
+def test_measures_are_shown_with_their_limits(tmp_path, shown):
+    limits = {
+        "unbalanced_force_ratio": 1e-6,
+        "inertial_number": 1e-4,
+        "stress_identity_error": 1e-5,
+    }
+    ax = drawn(tmp_path, certificate.plot_rest, BOTH_WAYS, limits)
+    phi = [0.6, 0.62, 0.64, 0.66]
+    for column, label, floor in (
+        ("unbalanced_force_ratio", "unbalanced force ratio", 1e-8),
+        ("inertial_number", "inertial number", 1e-7),
+        # 0 has no place on a logarithmic axis.
+        ("stress_identity_error", "stress of branches against boundary", 1e-16),
+    ):
+        assert_allclose(shown.line(ax, label), [phi, [floor] * 4])
+        measure = next(line for line in ax.lines if line.get_label() == label)
+        dashed = [line for line in ax.lines if line.get_linestyle() == "--"]
+        (limit,) = (line for line in dashed if line.get_color() == measure.get_color())
+        assert limit.get_ydata()[0] == limits[column]
+
+
+def test_overlaps_are_in_per_cent_of_loaded_states(tmp_path, shown):
+    ax = drawn(tmp_path, certificate.plot_overlaps, LOADING, 0.05)
+    for label, percent in (("median", 1.0), ("95 % of the contacts", 2.0), ("largest", 3.0)):
+        assert_allclose(shown.line(ax, label), [[0.62, 0.64, 0.66], [percent] * 3])
+    assert_allclose(shown.line(ax, "flagged from 5%")[1], 5.0)
+
+
+def test_dissipation_is_in_per_cent_of_the_work_by_leg(tmp_path, shown):
+    states = BOTH_WAYS.assign(dissipated_share=[0.1, 0.2, 0.3, 0.4])
+    ax = drawn(tmp_path, certificate.plot_dissipation, states)
+    assert_allclose(shown.line(ax, "loading"), [[0.6, 0.62], [10, 20]])
+    assert_allclose(shown.line(ax, "unloading"), [[0.64, 0.66], [30, 40]])
+    assert ax.get_ylim()[0] == 0.0
+
+
+def test_states_that_differ_by_rounding_are_drawn_on_an_axis_of_some_width(tmp_path):
+    one = BOTH_WAYS.assign(solid_fraction=[0.71, 0.71 + 1e-9, 0.71, 0.71])
+    for plot, *data in (
+        (certificate.plot_rest, LIMITS),
+        (certificate.plot_overlaps, 0.05),
+        (certificate.plot_dissipation,),
+    ):
+        low, high = drawn(tmp_path, plot, one, *data).get_xlim()
+        assert high - low > 0.049 and low < 0.71 < high
 
 
 @pytest.mark.parametrize(
     ("states", "legs"), [(BOTH_WAYS, ["loading", "unloading"]), (LOADING, ["loading"])]
 )
 def test_dissipation_names_the_legs_that_there_are(tmp_path, states, legs):
-    assert shown(drawn(tmp_path, certificate.plot_dissipation, states)) == legs
+    assert legend(drawn(tmp_path, certificate.plot_dissipation, states)) == legs
 
 
 @pytest.mark.parametrize("states", NO_LOAD.values(), ids=NO_LOAD)
@@ -86,7 +118,7 @@ def test_dissipation_names_the_legs_that_there_are(tmp_path, states, legs):
     ("plot", "data"),
     [
         (certificate.plot_rest, [LIMITS]),
-        (certificate.plot_overlaps, [OVERLAP_FLAG]),
+        (certificate.plot_overlaps, [0.05]),
         (certificate.plot_dissipation, []),
     ],
 )
@@ -105,11 +137,21 @@ def test_without_load_each_panel_says_so(tmp_path, states, plot, data):
 )
 def test_jamming_points_are_shown_seed_by_seed(tmp_path, loading, unloading, labels):
     ax = drawn(tmp_path, certificate.plot_jamming, jamming_of(loading, unloading))
-    assert shown(ax) == labels
+    assert legend(ax) == labels
     assert ax.get_xlim() == (-0.5, len(loading) - 0.5)
     # Each mark names the seed it stands at.
     for place, label in zip(ax.get_xticks(), ax.get_xticklabels(), strict=True):
         assert label.get_text() == str(int(place) + 3)
+
+
+def test_each_jamming_point_has_the_uncertainty_of_its_leg(tmp_path, shown):
+    table = jamming_of([0.64, 0.65], [0.66, 0.68]).assign(uncertainty_unloading=[2e-3, 3e-3])
+    ax = drawn(tmp_path, certificate.plot_jamming, table)
+    loading, unloading = ax.containers
+    assert_allclose(shown.points(loading[0]), [[-0.1, 0.9], [0.64, 0.65]])
+    assert_allclose(shown.points(unloading[0]), [[0.1, 1.1], [0.66, 0.68]])
+    assert_allclose(shown.bars(loading), [[0.6399, 0.6499], [0.6401, 0.6501]])
+    assert_allclose(shown.bars(unloading), [[0.658, 0.677], [0.662, 0.683]])
 
 
 @pytest.mark.parametrize("seeds", [0, 2])

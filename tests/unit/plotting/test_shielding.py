@@ -3,19 +3,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib import pyplot as plt
 from numpy.testing import assert_allclose
 
 from branchcrush.plotting.shielding import plot_branch_shielding, plot_grain_shielding
 from branchcrush.plotting.style import figure
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def _closed():
-    yield
-    plt.close("all")
 
 
 def grains(ratios, grains=50, low=0.8, high=1.2):
@@ -61,6 +54,31 @@ def test_claims_lines_and_points_are_seen_whatever_the_largest_ratio(tmp_path, r
         }
         assert len(ax.containers) == 4
     assert (tmp_path / "grains.png").stat().st_size > 0
+
+
+def test_energies_of_all_grains_and_of_those_that_bear_load_are_told_apart(shown):
+    table = grains([0.5, 2.0])
+    table.loc[table["grains_counted"] == "load-bearing", "energy_per_grain"] = 0.9
+    ax = plot_grain_shielding(table, "grain")
+    near, near_bearing, end, _ = ax.containers
+    assert_allclose(shown.points(near[0]), [[0.5, 2.0], [2.0, 0.5]])
+    assert_allclose(shown.bars(near), [[1.6, 0.4], [2.4, 0.6]])
+    assert_allclose(shown.points(near_bearing[0])[1], 0.9)
+    assert [drawn.get_label() for drawn in ax.containers] == [
+        "near jamming",
+        "near jamming, without rattlers",
+        "at the end",
+        "at the end, without rattlers",
+    ]
+    assert_allclose(shown.points(end[0]), [[0.5, 2.0], [2.0, 0.5]])
+
+
+@pytest.mark.parametrize("reading", ["contact", "grain", "volume"])
+def test_each_reading_is_the_column_of_its_name(shown, reading):
+    table = grains([2.0])
+    table[f"energy_per_{reading}"] = 0.45
+    ax = plot_grain_shielding(table, reading)
+    assert_allclose(shown.points(ax.containers[0][0]), [[2.0], [0.45]])
 
 
 def test_bins_of_few_grains_are_not_drawn():

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.statistics.bins import bin_edges, binned_sums
+from branchcrush.statistics.bins import bin_edges, bin_numbers, binned_sums
 
 
 def test_bins_of_the_paper_are_20_equal_ones_from_twice_the_smallest_radius():
@@ -13,6 +13,15 @@ def test_bins_of_the_paper_are_20_equal_ones_from_twice_the_smallest_radius():
     assert edges.size == 21
     assert (edges[0], edges[-1]) == (1e-5, 2e-3)
     assert_allclose(np.diff(edges), 1.99e-3 / 20, rtol=1e-12)
+
+
+def test_bins_of_a_single_size_lie_a_tenth_about_its_branches():
+    assert_allclose(bin_edges(1.0, 1.0, 4), [1.8, 1.9, 2.0, 2.1, 2.2], rtol=1e-14)
+
+
+def test_a_value_on_an_edge_belongs_to_the_bin_above_but_for_the_last():
+    assert bin_numbers([1.0, 1.5, 2.0, 2.5, 4.0], [1.0, 2.0, 4.0]).tolist() == [0, 0, 1, 1, 1]
+    assert bin_numbers([-np.inf, np.inf], [1.0, 2.0, 4.0]).tolist() == [0, 1]
 
 
 def test_lengths_beyond_the_ends_belong_to_the_end_bins():

@@ -56,8 +56,8 @@ def test_linear_fit_and_deviance_are_those_of_an_independent_code(name, state):
     expected = judged(seeds, name)
     fit = gamma_fit(seeds, design(name))
     assert_allclose(fit.parameters, expected.params, rtol=0, atol=1e-6)
-    found = sum(deviance(seed, design(name), fit.parameters) for seed in seeds)
-    assert_allclose(found, expected.deviance, rtol=1e-9)
+    result = sum(deviance(seed, design(name), fit.parameters) for seed in seeds)
+    assert_allclose(result, expected.deviance, rtol=1e-9)
 
 
 @pytest.mark.parametrize("state", range(4))
@@ -125,8 +125,8 @@ def test_how_branches_are_spread_over_seeds_does_not_matter_to_the_fit():
         alone, spread = (gamma_fit(s, design(name)) for s in ([whole], [*parts, empty]))
         assert_allclose(spread.parameters, alone.parameters, rtol=0, atol=1e-9)
         assert_allclose(spread.information.sum(axis=0), alone.information[0], rtol=1e-6)
-        found = sum(deviance(part, design(name), alone.parameters) for part in parts)
-        assert_allclose(found, deviance(whole, design(name), alone.parameters), rtol=1e-10)
+        result = sum(deviance(part, design(name), alone.parameters) for part in parts)
+        assert_allclose(result, deviance(whole, design(name), alone.parameters), rtol=1e-10)
 
 
 @settings(deadline=None, max_examples=40)
@@ -213,18 +213,39 @@ def test_one_step_gives_the_interval_of_real_refits_however_the_scales_differ(na
         for scale in rng.permutation(np.linspace(-1, 1, 10))
     ]
     fit = gamma_fit(seeds, design(name))
-    found = parameter_intervals(fit, resamples=100, rng=np.random.default_rng(1))
+    result = parameter_intervals(fit, resamples=100, rng=np.random.default_rng(1))
     expected = of_refits(seeds, fit, name, 100, 1)
-    assert_array_equal(found.estimate, fit.parameters)
-    assert_allclose(found.high - found.low, expected.high - expected.low, rtol=within)
+    assert_array_equal(result.estimate, fit.parameters)
+    assert_allclose(result.high - result.low, expected.high - expected.low, rtol=within)
+
+
+def test_a_draw_is_one_step_of_newtons_method_from_its_own_scale():
+    # Seeds whose energies differ by far and follow other laws, under a design that is not linear.
+    rng, kept = np.random.default_rng(8), []
+    laws = [(-1.0, 1.0, 2.0), (0.5, 2.0, 0.5), (2.0, 0.0, 3.0)]
+    seeds = [drawn(rng, 200, name="both_radii", law=law) for law in laws]
+    fit, states = gamma_fit(seeds, SIZES), {"resamples": 20, "rng": np.random.default_rng(1)}
+    parameter_intervals(fit, lambda theta: kept.append(theta) or theta, **states)
+
+    def score(draw, theta):
+        parts = [(energy, *SIZES(theta, *columns)) for *columns, energy in seeds]
+        return draw @ [(energy * np.exp(-eta) - 1.0) @ slope for energy, eta, slope in parts]
+
+    for draw, refit in zip(seed_draws(3, 20, np.random.default_rng(1)), kept[-1], strict=True):
+        relative = [energy * np.exp(-SIZES(fit.parameters, *xy)[0]) for *xy, energy in seeds]
+        start = fit.parameters + np.array([np.log(draw @ np.mean(relative, axis=1) / 3), 0.0])
+        shifts = 1e-5 * np.eye(2)
+        slope = [(score(draw, start + x) - score(draw, start - x)) / 2e-5 for x in shifts]
+        step = np.linalg.solve(np.transpose(slope), score(draw, start))
+        assert_allclose(refit, start - step, atol=1e-5)
 
 
 def test_wanted_functions_of_the_parameters_have_intervals_of_their_own():
     rng = np.random.default_rng(6)
     fit = gamma_fit([drawn(rng, 200) for _ in range(6)], design("branch_length"))
     plain = parameter_intervals(fit, rng=np.random.default_rng(1))
-    found = parameter_intervals(fit, lambda x: 2 * x[:, 1:] + 1, rng=np.random.default_rng(1))
-    assert_allclose(found, [2 * values[1:] + 1 for values in plain], rtol=1e-12)
+    result = parameter_intervals(fit, lambda x: 2 * x[:, 1:] + 1, rng=np.random.default_rng(1))
+    assert_allclose(result, [2 * values[1:] + 1 for values in plain], rtol=1e-12)
 
 
 def test_seeds_alike_leave_no_doubt_and_one_seed_no_interval():
@@ -244,7 +265,7 @@ def test_draws_without_branches_or_energy_have_no_estimate():
     for silent in (idle, tuple(np.zeros((3, 0)))):
         seeds = [drawn(rng, 200), silent, drawn(rng, 200), silent]
         refits = []
-        found = parameter_intervals(
+        result = parameter_intervals(
             gamma_fit(seeds, design("branch_length")),
             lambda theta, kept=refits: kept.append(theta) or theta,
             resamples=200,
@@ -253,7 +274,7 @@ def test_draws_without_branches_or_energy_have_no_estimate():
         loaded = draws[:, [0, 2]].sum(axis=1) > 0
         assert 0 < loaded.sum() < 200
         assert_array_equal(np.isfinite(refits[-1]).all(axis=1), loaded)
-        assert np.all(found.high - found.low > 0.0)
+        assert np.all(result.high - result.low > 0.0)
 
 
 # --- deviance ------------------------------------------------------------------------------------
@@ -267,9 +288,9 @@ def test_deviance_is_the_textbook_sum_and_never_negative(state, branches, name):
     theta = rng.normal(size=len(PREDICTORS[name].names) + 1)
     mean = np.exp(design(name)(theta, *seed[:-1])[0])
     expected = 2 * sum(e / m - 1 - np.log(e / m) for e, m in zip(seed[-1], mean, strict=True))
-    found = deviance(seed, design(name), theta)
-    assert found >= 0.0
-    assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
+    result = deviance(seed, design(name), theta)
+    assert result >= 0.0
+    assert_allclose(result, expected, rtol=1e-9, atol=1e-9)
 
 
 def test_energies_on_the_law_deviate_by_nothing():

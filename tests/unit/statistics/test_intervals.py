@@ -7,7 +7,15 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy import stats
 
-from branchcrush.statistics.intervals import interval_of_refits, pooled_interval, seed_draws
+from branchcrush.statistics.intervals import (
+    Interval,
+    Resampling,
+    interval_names,
+    interval_of_refits,
+    interval_text,
+    pooled_interval,
+    seed_draws,
+)
 
 
 def seeded(state):
@@ -93,12 +101,12 @@ def test_interval_of_a_mean_is_the_textbook_one():
     # The mean of a draw scatters by s sqrt((S - 1)/S)/sqrt(S), s being the deviation of the seeds.
     for seeds in (2, 3, 8, 20):
         values = np.random.default_rng(seeds).normal(5.0, 1.0, seeds)
-        found = pooled_interval(
+        result = pooled_interval(
             with_number(values), ratio, resamples=40_000, rng=np.random.default_rng(1)
         )
         expected = stats.t.interval(0.95, seeds - 1, values.mean(), stats.sem(values))
-        assert found.estimate == pytest.approx(values.mean(), rel=1e-12)
-        assert (found.high - found.low) / 2 == pytest.approx(np.diff(expected)[0] / 2, rel=0.02)
+        assert result.estimate == pytest.approx(values.mean(), rel=1e-12)
+        assert (result.high - result.low) / 2 == pytest.approx(np.diff(expected)[0] / 2, rel=0.02)
 
 
 @pytest.mark.parametrize("seeds", [3, 6])
@@ -106,38 +114,38 @@ def test_interval_of_a_mean_holds_it_as_often_as_it_says(seeds):
     rng, trials = np.random.default_rng(seeds), 2000
     held = 0
     for _ in range(trials):
-        found = pooled_interval(
+        result = pooled_interval(
             with_number(rng.normal(1.0, 1.0, seeds)), ratio, resamples=200, rng=rng
         )
-        held += found.low <= 1.0 <= found.high
+        held += result.low <= 1.0 <= result.high
     # Four standard deviations of a share of 0.95, and what 200 resamples blur.
     assert 0.925 <= held / trials <= 0.975
 
 
 def test_larger_seeds_count_by_what_they_add():
     sums = np.array([[10.0, 10.0], [300.0, 100.0]])
-    found = pooled_interval(sums, ratio, resamples=40_000, rng=np.random.default_rng(1))
+    result = pooled_interval(sums, ratio, resamples=40_000, rng=np.random.default_rng(1))
     # Draws: twice the first, one of each (half of all), twice the second.
     draws = np.repeat([1.0, 310 / 110, 3.0], [1, 2, 1])
     half = stats.t.ppf(0.975, 1) * draws.std() * 2**0.5
-    assert found.estimate == pytest.approx(310 / 110)
-    assert found.high - found.estimate == pytest.approx(half, rel=0.02)
+    assert result.estimate == pytest.approx(310 / 110)
+    assert result.high - result.estimate == pytest.approx(half, rel=0.02)
 
 
 def test_seeds_that_agree_leave_no_doubt():
-    found = pooled_interval([[6.0, 2.0], [9.0, 3.0], [3.0, 1.0]], ratio, rng=seeded(1))
-    assert_allclose(found, 3.0, rtol=1e-14)
+    result = pooled_interval([[6.0, 2.0], [9.0, 3.0], [3.0, 1.0]], ratio, rng=seeded(1))
+    assert_allclose(result, 3.0, rtol=1e-14)
 
 
 @settings(deadline=None, max_examples=40)
 @given(st.integers(0, 2**32), st.integers(2, 12), st.floats(1e-9, 1e9), st.floats(-5, 5))
 def test_units_scale_and_offset_the_interval_with_the_estimate(state, seeds, unit, offset):
     values = seeded(state).normal(3.0, 1.0, seeds)
-    found = pooled_interval(with_number(values), ratio, resamples=50, rng=seeded(1))
+    result = pooled_interval(with_number(values), ratio, resamples=50, rng=seeded(1))
     other = pooled_interval(
         with_number((values + offset) * unit), ratio, resamples=50, rng=seeded(1)
     )
-    assert_allclose(other, (np.array(found) + offset) * unit, rtol=1e-9, atol=1e-9 * unit)
+    assert_allclose(other, (np.array(result) + offset) * unit, rtol=1e-9, atol=1e-9 * unit)
 
 
 def test_order_of_seeds_matters_to_the_limits_no_more_than_the_draws_do():
@@ -165,9 +173,9 @@ def test_bins_that_some_draws_leave_empty_take_their_interval_from_the_others():
         with np.errstate(invalid="ignore"):
             return ratio(x)
 
-    found = pooled_interval(sums, mean, rng=seeded(1))
-    assert found.estimate == pytest.approx(13 / 3)
-    assert found.low < found.estimate < found.high
+    result = pooled_interval(sums, mean, rng=seeded(1))
+    assert result.estimate == pytest.approx(13 / 3)
+    assert result.low < result.estimate < result.high
 
 
 def test_one_pooled_seed_has_an_estimate_and_draws_nothing():
@@ -179,3 +187,48 @@ def test_same_random_state_gives_the_same_limits():
     first, again, other = (pooled_interval(sums, ratio, rng=seeded(k)) for k in (1, 1, 2))
     assert first == again
     assert first.low != other.low
+
+
+# --- names and text ------------------------------------------------------------------------------
+
+
+def test_an_interval_is_read_back_under_the_names_that_it_gives_itself():
+    named = Interval(3.0, 2.5, 3.75).named("theta")
+    assert named == {"theta": 3.0, "theta_low": 2.5, "theta_high": 3.75}
+    assert tuple(named) == interval_names("theta")
+    assert Interval.read({"other": 1.0, **named}, "theta") == (3.0, 2.5, 3.75)
+
+
+def test_what_a_result_does_not_hold_is_no_number():
+    known = Interval.read({"theta": 2.0, "theta_low": None}, "theta")
+    assert known.estimate == 2.0
+    assert np.isnan([known.low, known.high]).all()
+    assert np.isnan(Interval.read({}, "theta")).all()
+
+
+def test_one_of_many_intervals_is_of_plain_numbers():
+    many = Interval(*(np.array([[1.0, 2.0], [3.0, 4.0]]) + shift for shift in (0.0, -0.5, 0.5)))
+    one = many.part((1, 0))
+    assert one == (3.0, 2.5, 3.5)
+    assert {type(value) for value in one} == {float}
+    assert_array_equal(many.part(1), [[3.0, 4.0], [2.5, 3.5], [3.5, 4.5]])
+
+
+def test_kinds_of_results_have_random_states_of_their_own():
+    # A published interval is that of these states.
+    states = {"EXPONENTS": 20, "CONTACTS": 21, "PREDICTORS": 22, "SHARING": 23, "FINDINGS": 24}
+    assert {kind.name: int(kind) for kind in Resampling} == states
+    first, again = Resampling.SHARING.rng(), Resampling.SHARING.rng()
+    assert first.random() == again.random() == np.random.default_rng(23).random()
+
+
+@pytest.mark.parametrize(
+    ("limits", "expected"),
+    [
+        ((2.966, 3.154), "3.06 (2.97 to 3.15)"),
+        ((None, None), "3.06 (one seed: no interval)"),
+        ((np.nan, np.nan), "3.06 (one seed: no interval)"),
+    ],
+)
+def test_text_of_an_interval_has_two_decimals_or_says_that_there_is_none(limits, expected):
+    assert interval_text(3.0649, *limits) == expected

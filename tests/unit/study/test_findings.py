@@ -1,226 +1,185 @@
-"""All samples beside each other: which side of each question they are on, and the page of it."""
+"""The rows of all samples: each number of the results in its own column, of its own state."""
 
-import numpy as np
-import pandas as pd
+from dataclasses import replace
+
 import pytest
 
-from branchcrush.study.exponents import at_distance, common_distance, crossing
-from branchcrush.study.findings import finding_row, verdicts
-from branchcrush.study.kinds import SampleKind
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.energy.state_fit import Curvature, StateFit
+from branchcrush.study.findings import finding_row, finding_rows
 
 INTERVALS = {"confidence": 0.95, "resamples": 100}
-DISTANCES = np.array([0.0, 0.05, 0.1, 0.15])
 
 
-def path_of(exponents, half=0.1, distances=DISTANCES):
-    exponents = np.asarray(exponents, dtype=float)
-    return pd.DataFrame(
-        {
-            "solid_fraction_above_jamming": distances,
-            "exponent": exponents,
-            "exponent_low": exponents - half,
-            "exponent_high": exponents + half,
-        }
-    )
+def row_of(results, distance=0.1):
+    return finding_row(results, distance, INTERVALS)
 
 
-# --- along the path ------------------------------------------------------------------------------
-
-
-def test_exponent_between_states_is_on_the_line_between_them():
-    value, low, high = at_distance(path_of([2.0, 2.5, 3.0, 3.5]), 0.075)
-    assert (value, low, high) == pytest.approx((2.75, 2.65, 2.85))
-
-
-@pytest.mark.parametrize("distance", [-0.01, 0.16])
-def test_beyond_the_states_there_is_no_exponent(distance):
-    assert np.isnan(at_distance(path_of([2.0, 2.5, 3.0, 3.5]), distance)).all()
-
-
-def test_states_without_an_exponent_are_left_out():
-    assert at_distance(path_of([np.nan, 2.5, np.nan, 3.5]), 0.1)[0] == pytest.approx(3.0)
-    assert np.isnan(at_distance(path_of([np.nan] * 4), 0.1)).all()
-
-
-@pytest.mark.parametrize(
-    ("exponents", "distance"),
-    [
-        ([2.0, 2.5, 3.5, 4.0], 0.075),
-        # Above, below again, and above for good.
-        ([3.2, 2.8, 3.2, 3.4], 0.075),
-        ([3.1, 3.2, 3.3, 3.4], np.nan),
-        ([2.0, 2.2, 3.2, 2.4], np.nan),
-    ],
-)
-def test_crossing_is_where_the_exponent_is_above_three_for_good(exponents, distance):
-    assert crossing(path_of(exponents)) == pytest.approx(distance, nan_ok=True)
-
-
-def test_common_distance_is_the_shortest_rounded_down():
-    ends = [path_of([2.0, 3.0], distances=[0.0, end]) for end in (0.131, 0.2, 0.149)]
-    assert common_distance(ends) == 0.13
-    assert np.isnan(common_distance([]))
-    unknown = path_of([2.0, 3.0], distances=[np.nan, np.nan])
-    assert np.isnan(common_distance([unknown]))
-    # A sample whose jamming point is unknown does not blank the others.
-    assert common_distance([unknown, *ends]) == 0.13
-
-
-# --- rows ----------------------------------------------------------------------------------------
-
-
-def states_of(prefactor=8.0):
-    above = np.array([0.02, 0.04])
-    part = pd.DataFrame(
-        {
-            "state": [3, 4],
-            "solid_fraction_above_jamming": above,
-            "isostatic_number": 5.5,
-            "mechanical_coordination_number": 5.5 + prefactor * np.sqrt(above),
-        }
-    )
-    return pd.concat([part.assign(seed_number=number) for number in range(2)])
-
-
-def predictor(name, explained, difference=(0.0, 0.0, 0.0)):
-    keys = ("difference_to_branch_length" + part for part in ("", "_low", "_high"))
-    return {
-        "name": name,
-        "parameters": {"exponent": {"estimate": 3.0, "low": 2.9, "high": 3.1}},
-        "explained_deviance": explained,
-        **dict(zip(keys, difference, strict=True)),
-    }
-
-
-def split(curvature=(0.5, 0.2, 0.8)):
-    return {
-        "curvature": dict(
-            zip(("curvature", "curvature_low", "curvature_high"), curvature, strict=True)
-        ),
-        "predictors": [
-            predictor("branch_length", 0.16),
-            predictor("reduced_radius", 0.19, (0.03, 0.02, 0.04)),
-            predictor("grain_size", 0.12, (-0.04, -0.05, -0.03)),
-            predictor("surface", 0.20, (0.04, 0.03, 0.05)),
-        ],
-    }
-
-
-def results(exponent=(3.0, 2.9, 3.1), parking=0.03, claim="no such grain", branches=None):
-    low = {"exponent": exponent[0], "exponent_low": exponent[1], "exponent_high": exponent[2]}
-    fit = {**low, "seeds": 3, "solid_fraction": 0.75, **split(), "near_jamming": split()}
-    lengths = [{"name": "parking", "kolmogorov_smirnov": parking}]
-    state = {
-        "solid_fraction_above_jamming": 0.01,
-        "mean_length_m": 1e-3,
-        "coordination_number": 5.0,
-        "rattler_fraction": 0.1,
-        "predictions": lengths,
-    }
-    grains = {"largest_neighbour_ratio": 2.0, "neighbour_ratio_from": 1.6, "grains": 20}
-    for reading in ("contact", "grain", "volume"):
-        grains |= {f"energy_per_{reading}{part}": 0.9 for part in ("", "_low", "_high")}
-        grains[f"claim_per_{reading}"] = claim
-    tail = {
-        f"{name}{part}": 1.0
-        for name in ("decay_rate", "squared_variation")
-        for part in ("", "_low", "_high")
-    }
-    fabric = {"deviator_over_expected": 0.5, "by_chance_low": 0.8, "by_chance_high": 1.2}
-    stress = {
-        f"{name}{part}": 0.5
-        for name in ("coarse_half_stress_share", "sharing_index")
-        for part in ("", "_low", "_high")
-    }
-    end = {
-        "shielding": {"grains": grains, "branches": branches or {}, "grain_energy": {}},
-        "forces": {"tails": [{"threshold": t, **tail} for t in (1.0, 2.0)], "by_length": low},
-        "fabric": {"branches": fabric, "forces": fabric},
-        "stress": stress,
-    }
-    return fit, {"near_jamming": state, "end": state}, {"near_jamming": end, "end": end}
-
-
-def row_of(name="one", exponents=(2.5, 2.8, 3.0, 3.2), **options):
-    kind = SampleKind("walls", "hertz", {"form": "single"})
-    return finding_row(
-        name, kind, *results(**options), path_of(exponents), states_of(), 0.1, INTERVALS
-    )
-
-
-def test_row_says_what_the_results_say():
-    row = row_of()
+def test_row_is_of_its_sample_and_of_its_exponents(sample):
+    row = row_of(sample())
     assert (row["sample"], row["boundary"], row["contact_law"]) == ("one", "walls", "hertz")
     assert row["reason"] is None
-    assert row["exponent_at_distance"] == pytest.approx(3.0)
-    assert row["exponent_at_end"] == 3.0
-    assert row["distance_at_end"] == 0.15
+    assert (row["seeds"], row["solid_fraction"]) == (3, 0.7407)
+    assert [row[f"exponent_at_end{limit}"] for limit in ("", "_low", "_high")] == [3.0, 2.9, 3.1]
+    assert (row["distance"], row["distance_at_end"]) == (0.1, 0.15)
+    for limit, n in (("", 3.0), ("_low", 2.9), ("_high", 3.1)):
+        assert row[f"exponent_at_distance{limit}"] == pytest.approx(n)
     assert row["distance_of_exponent_3"] == pytest.approx(0.1)
-    assert row["ks_parking_near"] == 0.03
-    # kappa* was made with this prefactor.
+
+
+@pytest.mark.parametrize(("where", "shift"), [("end", 0.0), ("near", 0.05)])
+def test_fits_of_each_state_are_in_the_columns_of_that_state(sample, where, shift):
+    row = row_of(sample())
+    expected = {
+        "curvature": 0.5,
+        "curvature_low": 0.4,
+        "curvature_high": 0.7,
+        "explained_branch_length": 0.16,
+        "explained_reduced_radius": 0.19,
+        "explained_both_radii": 0.185,
+        "explained_grain_size": 0.12,
+        "explained_surface": 0.20,
+        "reduced_radius_over_length": 0.03,
+        "reduced_radius_over_length_low": 0.02,
+        "reduced_radius_over_length_high": 0.05,
+        "grain_size_over_length": -0.04,
+        "exponent_of_branch_length": 3.1,
+        "exponent_of_reduced_radius": 2.8,
+        "exponent_of_reduced_radius_low": 2.7,
+    }
+    for name, value in expected.items():
+        assert row[f"{name}_{where}"] == pytest.approx(value - shift), name
+
+
+def test_the_surface_is_the_ceiling_and_no_rival(sample):
+    row = row_of(sample())
+    assert row["explained_surface_end"] > row["explained_reduced_radius_end"]
+    assert row["best_predictor_end"] == row["best_predictor_near"] == "reduced_radius"
+
+
+@pytest.mark.parametrize("kept", [(0,), (0, 0)])
+def test_one_predictor_or_two_that_say_the_same_have_no_best(sample, kept):
+    whole = sample()
+    length = whole.fit.end.predictors[0]
+    rivals = tuple(replace(length, name=name) for name, _ in zip(("a", "b"), kept, strict=False))
+    end = StateFit(rivals, Curvature.without("one length"))
+    row = row_of(replace(whole, fit=replace(whole.fit, end=end)))
+    assert row["best_predictor_end"] is None
+    assert row["curvature_end"] != row["curvature_end"]
+
+
+def test_lengths_and_contacts_are_of_the_state_their_column_says(sample):
+    row = row_of(sample())
+    expected = {
+        "distance_near": 0.10,
+        "mean_length_near_m": 1.5e-3 + 0.05,
+        "ks_parking_near": 0.03,
+        "ks_random_contact_near": 0.35,
+        "ks_configuration_near": 0.06,
+        "ks_surface_near": 0.25,
+        "ks_parking_end": 0.33,
+        "ks_random_contact_end": 0.4,
+        "ks_configuration_end": 0.01,
+        "assortativity_of_radii": -0.1,
+        "assortativity_of_radii_low": -0.2,
+        "assortativity_of_radii_high": 0.1,
+        "coordination_number_near": 6.45,
+        "rattler_fraction_near": 0.15,
+        "coordination_number_end": 6.5,
+    }
+    for name, value in expected.items():
+        assert row[name] == pytest.approx(value), name
+    assert "ks_surface_end" not in row
+
+
+def test_jamming_law_is_about_the_isostatic_number_of_each_state(sample):
+    row = row_of(sample())
+    # kappa* was made with these, above 5.5.
     assert row["jamming_law_prefactor"] == pytest.approx(8.0)
     assert row["jamming_law_exponent"] == pytest.approx(0.5)
-    # The surface is the ceiling of the others and no rival.
-    assert row["best_predictor_end"] == "reduced_radius"
+    assert row["jamming_law_prefactor_low"] == pytest.approx(8.0)
+
+
+def test_what_is_shared_is_that_of_the_end(sample):
+    row = row_of(sample(claim="undecided", branch_claim="supported"))
+    expected = {
+        "shielding_exponent": 0.9,
+        "shielding_exponent_high": 1.1,
+        "shielding_unequal_over_equal": 0.14,
+        "shielding_radius_ratio_to": 0.2,
+        "shielding_unequal_branches": 137,
+        "shielding_claim_per_branch": "supported",
+        "shielding_largest_neighbour_ratio": 2.0,
+        "shielding_neighbour_ratio_from": 1.6,
+        "shielding_grains": 20,
+        "shielding_energy_per_contact": 0.7,
+        "shielding_energy_per_grain": 1.7,
+        "shielding_energy_per_volume": 2.7,
+        "shielding_energy_per_volume_low": 2.6,
+        "shielding_claim_per_contact": "undecided",
+        "shielding_claim_per_volume": "undecided",
+        "grain_energy_exponent_load_bearing": 2.6,
+        "force_exponent": 1.7,
+        # Of the tail above twice the mean force.
+        "force_tail_decay_rate": 2.0,
+        "force_tail_squared_variation": 0.5,
+        "fabric_branches_deviator_over_expected": 0.4,
+        "fabric_branches_by_chance_low": 1.4,
+        "fabric_branches_by_chance_high": 2.4,
+        "fabric_forces_deviator_over_expected": 0.6,
+        "coarse_half_stress_share": 0.48,
+        "sharing_index": -0.02,
+        "sharing_index_low": -0.12,
+    }
+    for name, value in expected.items():
+        wanted = value if isinstance(value, str) else pytest.approx(value)
+        assert row[name] == wanted, name
+
+
+def test_one_state_has_nothing_near_jamming_and_no_path(one_state):
+    row = row_of(one_state())
+    assert not [name for name in row if name.endswith("_near") or "_near_" in name]
+    assert row["exponent_at_end"] == 3.0
+    assert row["exponent_at_distance"] != row["exponent_at_distance"]
+    assert row["distance_of_exponent_3"] != row["distance_of_exponent_3"]
+    assert row["coordination_number_end"] == 6.5
+    assert row["ks_parking_end"] == pytest.approx(0.33)
 
 
 @pytest.mark.parametrize(
     ("part", "column"),
-    [(0, "exponent_at_end"), (1, "coordination_number_near"), (2, "sharing_index")],
+    [
+        ("fit", "exponent_at_end"),
+        ("numbers", "coordination_number_near"),
+        ("shared", "sharing_index"),
+    ],
 )
-def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(part, column):
-    parts = list(results())
-    parts[part] = {"reason": "no load"}
-    kind = SampleKind("periodic", "linear", {"form": "single"})
-    row = finding_row("part", kind, *parts, path_of([2.0] * 4), states_of(), 0.1, INTERVALS)
+def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(sample, part, column):
+    nothing = {"reason": "no load"}
+    missing = EnergySplitFit.read(nothing) if part == "fit" else nothing
+    row = row_of(replace(sample(), **{part: missing}))
     assert row["reason"] == "no load"
     kept = {"exponent_at_end", "coordination_number_near", "sharing_index"} - {column}
     assert kept <= set(row) and column not in row
-    assert verdicts([row])["known"] == ([] if part == 0 else ["part"])
 
 
-def test_row_of_a_sample_without_any_data_says_only_why():
-    kind = SampleKind("periodic", "linear", {"form": "single"})
-    nothing = [{"reason": "no load"}] * 3
-    row = finding_row("loose", kind, *nothing, None, None, 0.1, INTERVALS)
-    assert set(row) == {"sample", "boundary", "contact_law", "reason"}
-    found = verdicts([row])
-    assert not any(found.values())
+def test_row_of_a_sample_without_any_data_says_only_why(sample):
+    nothing = {"reason": "no load"}
+    parts = {"fit": EnergySplitFit.read(nothing), "numbers": nothing, "shared": nothing}
+    row = row_of(replace(sample("loose"), **parts))
+    assert row == {
+        "sample": "loose",
+        "boundary": "walls",
+        "contact_law": "hertz",
+        "reason": "no load",
+    }
 
 
-# --- verdicts ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("interval", "side"),
-    [((3.0, 2.9, 3.1), "holds"), ((2.5, 2.4, 2.6), "below"), ((3.5, 3.4, 3.6), "above")],
-)
-def test_three_holds_where_the_interval_holds_it(interval, side):
-    found = verdicts([row_of(exponent=interval)])
-    for other in ("holds", "below", "above"):
-        assert found[f"three_at_end_{other}"] == (["one"] if other == side else [])
-
-
-def test_claims_of_branches_are_told_beside_those_of_grains():
-    found = verdicts([row_of("few"), row_of("most", branches={"claim": "supported"})])
-    assert found["claim_branch_supported"] == ["most"]
-    assert found["claim_branch_no_such"] == []
-
-
-def test_one_seed_has_no_interval_and_is_on_no_side():
-    found = verdicts([row_of(exponent=(3.0, None, None))])
-    assert not any(found[f"three_at_end_{side}"] for side in ("holds", "below", "above"))
-
-
-def test_each_sample_is_on_its_side_of_each_question():
-    rows = [row_of("good"), row_of("bad", parking=0.07, claim="contradicted")]
-    found = verdicts(rows)
-    assert found["known"] == ["good", "bad"]
-    assert (found["lengths_good"], found["lengths_bad"]) == (["good"], ["bad"])
-    assert found["power_law_fails"] == ["good", "bad"]
-    assert found["reduced_radius_better"] == ["good", "bad"]
-    assert found["grain_size_worse"] == ["good", "bad"]
-    assert found["claim_volume_contradicted"] == ["bad"]
-    assert found["claim_volume_no_such"] == ["good"]
-    assert found["best_reduced_radius"] == ["good", "bad"]
-    assert found["best_branch_length"] == []
+def test_all_rows_are_at_the_distance_that_all_paths_reach(sample, one_state):
+    short = sample("short")
+    short = replace(short, path=short.path[:3])  # to 0.10
+    loose = replace(sample("loose"), fit=EnergySplitFit.read({"reason": "no load"}))
+    rows = finding_rows([sample("long"), short, one_state(), loose], **INTERVALS)
+    assert [row["sample"] for row in rows] == ["long", "short", "alone", "loose"]
+    assert [row.get("distance") for row in rows] == [0.1, 0.1, 0.1, None]
+    assert rows[0]["exponent_at_distance"] == pytest.approx(3.0)

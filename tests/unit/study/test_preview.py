@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from branchcrush.gradings.curves import from_percent_finer, ultimate_grading
 from branchcrush.gradings.forms import uniform
 from branchcrush.gradings.mixtures import single
 from branchcrush.loading.sample import Sample
@@ -15,7 +16,9 @@ from branchcrush.study.preview import Plan, preview_text, sample_plan
 LOADING = Loading("edge_reduction", 0.4)
 
 
-def plan_of(grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, **loading):
+def plan_of(
+    grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, ranks=1, ultimate=None, **loading
+):
     sample = Sample(
         grading=grading or single(1e-3),
         sampling="random",
@@ -27,8 +30,9 @@ def plan_of(grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, **loadi
         strain_step=1.7e-3,
         seeds=tuple(range(seeds)),
         refined_seeds=refined,
+        ranks=ranks,
     )
-    return sample_plan(sample, seconds)
+    return sample_plan(sample, seconds, ultimate)
 
 
 def test_evaluations_and_time_of_a_thousand_grains_are_those_of_their_steps_and_states():
@@ -67,6 +71,11 @@ def test_memory_is_a_base_and_the_contacts_of_every_state():
     assert more.memory - less.memory == pytest.approx(15 * 3 * 1000 * 300)
 
 
+def test_every_rank_has_a_base_of_memory():
+    one, three = plan_of(), plan_of(ranks=3)
+    assert three.memory - one.memory == pytest.approx(2 * 350e6)
+
+
 def test_sound_sample_has_no_warning():
     assert plan_of().warnings == []
 
@@ -83,6 +92,29 @@ def test_stress_that_presses_grains_deep_is_warned_of(stress, warned):
     assert [("overlaps of about 33% of the radius" in text) for text in plan.warnings] == (
         [True] if warned else []
     )
+
+
+@pytest.mark.parametrize(("smallest", "warned"), [(4e-4, True), (5e-6, False)])
+def test_an_ultimate_grading_that_is_coarser_is_warned_of(smallest, warned):
+    # Of radii from 0.4 to 1 mm the fractal has the larger mean cube of branch lengths where its
+    # fines are cut off: here by hand as if all grains were of the largest size.
+    ultimate = single(1e-3) if warned else single(smallest)
+    plan = plan_of(grains=100000, grading=uniform(smallest, 1e-3), ultimate=ultimate)
+    problems = [text for text in plan.warnings if "coarser" in text]
+    assert len(problems) == warned
+    if warned:
+        assert "at the paper's n = 3" in problems[0]
+        assert "thermodynamics.ultimate_alpha" in problems[0]
+        # <l^3> = 2<R^3> + 6<R><R^2>: 8 mm^3 of one radius; of a uniform one from 0.4 to 1 mm
+        # <R> = 0.7, <R^2> = 0.52, <R^3> = 0.406, so 0.812 + 2.184.
+        assert "2.67 times as large" in problems[0]
+
+
+def test_the_fractal_of_a_narrow_sand_is_the_coarser_one():
+    # Nearly all of its mass is finer than most of the mass of the fractal.
+    narrow = from_percent_finer([0.4e-3, 0.45e-3, 1e-3], [0.0, 95.0, 100.0])
+    plan = plan_of(grains=100000, grading=narrow, ultimate=ultimate_grading(narrow, 2.6))
+    assert any("the ultimate grading is coarser" in text for text in plan.warnings)
 
 
 # --- text ----------------------------------------------------------------------------------------
@@ -120,6 +152,12 @@ def test_text_holds_every_warning_of_every_sample():
 def test_all_samples_share_the_cores():
     plan = plan_of()._replace(seconds=600.0)
     assert written(plan, plan).endswith("all samples: about 10.0 minutes on 2 core(s)\n")
+
+
+def test_all_samples_take_as_long_as_all_their_packings():
+    short, long = plan_of()._replace(seconds=600.0), plan_of()._replace(seconds=3000.0)
+    # 300 and 1500 s on two cores, one after the other.
+    assert written(short, long).endswith("all samples: about 30.0 minutes on 2 core(s)\n")
 
 
 def test_one_packing_runs_on_one_core():

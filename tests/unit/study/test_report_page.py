@@ -1,50 +1,21 @@
-"""The table of all samples and the page: samples with data, without any, and with some."""
+"""The report: samples with data, without any, with some, and of one state."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from branchcrush.crushing.model import admissibility_problem
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.samples.certificate import LIMITS
-from branchcrush.study.comparison import comparison_row
-from branchcrush.study.pages import render_report
+from branchcrush.statistics.intervals import Interval
+from branchcrush.study.pages import SamplePage, render_report
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"
 FIGURES = re.findall(r"s\.figures\.(\w+)", TEMPLATE.read_text(encoding="utf-8"))
 
-FIT = {
-    "exponent": 3.111,
-    "exponent_low": 2.99,
-    "exponent_high": 3.24,
-    "confidence": 0.95,
-    "branches": 4321,
-    "solid_fraction": 0.7407,
-    "jamming_solid_fraction": 0.64,
-    "mean_stress_Pa": 5.6e7,
-    "elastic_energy_J_per_m3": 1e6,
-    "median_overlap_over_length": 0.02,
-    "coordination_number": 6.5,
-    "mechanical_coordination_number": 7.5,
-    "rattler_fraction": 0.1,
-    "reference_length_m": 1e-3,
-    "cubic_r_squared": 0.99,
-    "predictors": [
-        {
-            "name": "branch_length",
-            "formula": "A l^n",
-            "exponent": 3.05,
-            "parameters": {"exponent": {"estimate": 3.05, "low": 2.9, "high": 3.2}},
-            "explained_deviance": 0.1605,
-            "explained_deviance_low": 0.15,
-            "explained_deviance_high": 0.17,
-            "difference_to_branch_length": 0.0,
-            "difference_to_branch_length_low": 0.0,
-            "difference_to_branch_length_high": 0.0,
-        },
-        {"name": "surface", "formula": "quadratic", "reason": "not told apart"},
-    ],
-    "curvature": {"curvature": 0.46, "curvature_low": 0.22, "curvature_high": 0.7},
-}
 MODEL = {
     "theta": 0.891574,
     "yield_strain": 0.1015,
@@ -97,6 +68,7 @@ NOTHING = {
     "worst": dict.fromkeys(LIMITS),
 }
 REASON = {"reason": "no packing is certified at the end of its loading"}
+NO_FIT = EnergySplitFit.read(REASON)
 SETTINGS = {
     "grains": 1000,
     "grading": {"form": "uniform", "basis": "number"},
@@ -111,7 +83,17 @@ SETTINGS = {
 
 
 @pytest.fixture
-def page(tmp_path):
+def fit(sample):
+    """Fits of which every number of the two states is known."""
+    packings = replace(sample().fit.packings, jamming_solid_fraction=0.64)
+    whole = replace(sample().fit, exponent=Interval(3.111, 2.99, 3.24), packings=packings)
+    surface = FittedPredictor.without("surface", "quadratic", "not told apart")
+    predictors = (*whole.end.predictors[:4], surface)
+    return replace(whole, end=replace(whole.end, predictors=predictors))
+
+
+@pytest.fixture
+def page(tmp_path, fit):
     """Return a function that renders samples and returns the page without its images."""
     image = tmp_path / "figure.png"
     image.write_bytes(b"pixels")
@@ -122,14 +104,14 @@ def page(tmp_path):
         whole = {
             "name": name,
             "settings": settings,
-            "fit": FIT,
+            "fit": fit,
             "model": MODEL,
             "statistics": STATISTICS,
             "certificate": certificate,
             "grading": {"target": GRADING, "realised": GRADING, "representativity": STANDING},
             "figures": dict.fromkeys(FIGURES, image),
         }
-        return whole | parts
+        return SamplePage(**(whole | parts))
 
     def render(*samples):
         html = render_report(
@@ -141,32 +123,6 @@ def page(tmp_path):
         return re.sub(r"\s+", " ", html)
 
     return render
-
-
-# --- table of all samples ------------------------------------------------------------------------
-
-
-def test_row_holds_the_results_beside_the_verdict():
-    row = comparison_row("paper", FIT, MODEL, CERTIFICATE)
-    assert (row["sample"], row["verdict"], row["reason"]) == ("paper", "certified", None)
-    assert (row["exponent"], row["theta"], row["branches"]) == (3.111, 0.891574, 4321)
-    assert (row["seeds"], row["seeds_certified"]) == (4, 4)
-    assert row["jamming_scatter_of_seeds"] == 0.002
-    assert None not in [value for key, value in row.items() if key != "reason"]
-
-
-def test_row_of_a_sample_without_data_has_its_reason_and_the_same_columns():
-    row = comparison_row("loose", REASON, REASON, {**CERTIFICATE, **NOTHING})
-    assert row["reason"] == REASON["reason"]
-    assert row["verdict"] == "not certified"
-    assert (row["seeds"], row["seeds_certified"]) == (4, 0)
-    assert {row[key] for key in ("exponent", "theta", "branches", "mean_stress_Pa")} == {None}
-    assert list(row) == list(comparison_row("paper", FIT, MODEL, CERTIFICATE))
-
-
-def test_row_with_an_exponent_but_no_model_says_why_there_is_no_theta():
-    row = comparison_row("paper", FIT, {"reason": "no elastic law"}, CERTIFICATE)
-    assert (row["exponent"], row["theta"], row["reason"]) == (3.111, None, "no elastic law")
 
 
 # --- page ----------------------------------------------------------------------------------------
@@ -181,7 +137,7 @@ def test_page_shows_exponent_verdict_and_all_figures(page):
 
 
 def test_page_of_a_sample_without_data_says_why_and_shows_what_there_is(page):
-    html = page({"fit": REASON, "model": REASON, "statistics": REASON, "certificate": NOTHING})
+    html = page({"fit": NO_FIT, "model": REASON, "statistics": REASON, "certificate": NOTHING})
     for part in ("No exponent", "No branches", "No curves"):
         assert f'<p class="note">{part}: {REASON["reason"]}.</p>' in html
     assert "<li>4 of 4 packings carry no load at the end of their loading</li>" in html
@@ -192,23 +148,65 @@ def test_page_of_a_sample_without_data_says_why_and_shows_what_there_is(page):
 
 
 def test_sample_without_data_leaves_the_others_theirs(page):
-    loose = {"name": "loose", "fit": REASON, "model": REASON, "certificate": NOTHING}
+    loose = {"name": "loose", "fit": NO_FIT, "model": REASON, "certificate": NOTHING}
     html = page({}, loose)
     assert '<td class="certified">certified</td> <td>3.11 (95% interval 2.99 to 3.24)</td>' in html
     assert '<td class="not-certified">not certified</td> <td>none</td><td>0 of 4</td>' in html
 
 
 def test_one_size_has_branches_but_no_exponent(page):
-    html = page({"fit": REASON, "settings": {"grading": {"form": "single"}}})
+    html = page({"fit": NO_FIT, "settings": {"grading": {"form": "single"}}})
     assert "1000 grains of form single (one size)" in html
     assert 'alt="branch lengths"' in html
     assert 'alt="energy split"' not in html
 
 
-def test_one_seed_has_no_interval(page):
-    assert "n = 3.11 (one seed: no interval)" in page(
-        {"fit": {**FIT, "exponent_low": None, "exponent_high": None}}
-    )
+def test_one_seed_has_no_interval(page, fit):
+    alone = replace(fit, exponent=Interval(3.111, float("nan"), float("nan")))
+    assert "n = 3.11 (one seed: no interval)" in page({"fit": alone})
+
+
+def test_predictors_are_told_with_what_they_explain_or_why_they_do_not(page):
+    html = page({})
+    for cells in (
+        "<td>branch length</td><td>formula</td> <td>3.10</td> <td>0.160 (0.150 to 0.180)</td>",
+        "<td>reduced radius</td><td>formula</td> <td>2.80</td> <td>0.190 (0.180 to 0.210)</td>"
+        "<td>0.030 (0.020 to 0.050)</td>",
+        '<td>surface</td><td>quadratic</td> <td colspan="3">not told apart</td>',
+    ):
+        assert cells in html
+    assert "All branches fitted at once: n = 3.10." in html
+    assert "is 0.50 (0.40 to 0.70)." in html
+
+
+def test_why_nothing_is_left_out_stands_in_place_of_what_is_explained(page, fit):
+    length = replace(fit.end.predictors[0], left_out_reason="needs two seeds")
+    html = page({"fit": replace(fit, end=replace(fit.end, predictors=(length,)))})
+    assert "<td>needs two seeds</td>" in html
+
+
+@pytest.mark.parametrize(
+    ("loading", "advice"),
+    [
+        ({"target": "mean_stress", "value": [5e7]}, "give loading.mean_stress several stresses"),
+        ({"target": "edge_reduction", "value": 0.4}, "raise loading.states"),
+    ],
+)
+def test_one_state_is_said_to_be_one(page, fit, loading, advice):
+    loading = {**loading, "unloading": False}
+    html = page({"fit": replace(fit, near_jamming=None), "settings": {"loading": loading}})
+    assert "One loaded state" in html and advice in html
+    assert "it is not near jamming" in html
+    assert "along the loading, and the mean length" not in html
+    assert "One loaded state" not in page({})
+
+
+def test_pages_of_samples_hold_their_own_figures(page, tmp_path):
+    other = tmp_path / "other.png"
+    other.write_bytes(b"other")
+    html = page({}, {"name": "results", "figures": dict.fromkeys(FIGURES, other)})
+    first, second = html.split('<h2 id="results">')
+    assert first.count("cGl4ZWxz") == len(FIGURES) == second.count("b3RoZXI=")
 
 
 def test_page_tells_the_basis_and_the_loading_it_was_given(page):
@@ -261,9 +259,23 @@ def test_page_tells_of_the_way_back(page):
     assert "0.6500, 0.0065" in html
 
 
-def test_jamming_of_the_seeds_used_may_be_unknown(page):
-    html = page({"fit": {**FIT, "jamming_solid_fraction": None}})
+def test_jamming_of_the_seeds_used_may_be_unknown(page, fit):
+    unknown = replace(fit.packings, jamming_solid_fraction=float("nan"))
+    html = page({"fit": replace(fit, packings=unknown)})
     assert "at &phi; = 0.741, 56 MPa." in html
+
+
+def test_a_coarser_ultimate_grading_is_told_in_the_words_of_the_preview(page):
+    why = admissibility_problem(1.0, 1.5)
+    html = page({"model": {"reason": why}})
+    assert f"No curves: {why}.".replace("<", "&lt;") in html
+    assert "thermodynamics.ultimate_alpha" in html
+
+
+def test_a_wide_interval_is_a_reason_like_others(page):
+    reason = "too few seeds or branches to tell n"
+    certificate = {"verdict": "not certified", "reasons": [reason]}
+    assert f"<li>{reason}</li>" in page({"certificate": certificate})
 
 
 def test_a_grading_that_is_the_ultimate_one_never_crushes(page):

@@ -1,0 +1,164 @@
+"""The figures of what is fitted to a sample, a function each: result files in, one picture out."""
+
+import os
+from collections.abc import Mapping
+
+from matplotlib.figure import Figure
+
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.files.tables import Table
+from branchcrush.plotting import branches, crushing, energy, predictors
+from branchcrush.plotting.style import drawn, figure, grid
+
+Path = str | os.PathLike
+
+
+def draw_energy_split(path: Path, dpi: int, table: Table, fit: EnergySplitFit) -> Figure:
+    """Draw Fig. 5, the energy split, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    table : DataFrame
+        `energy_split.csv`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        drawn(energy.plot_energy_split, fit.reason, table, fit, ax=ax)
+    return ax.figure
+
+
+def draw_cubic(path: Path, dpi: int, table: Table, fit: EnergySplitFit) -> Figure:
+    """Draw Fig. 6, the energy split against the cube of the length, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    table : DataFrame
+        `energy_split.csv`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        drawn(energy.plot_cubic, fit.reason, table, fit, ax=ax)
+    return ax.figure
+
+
+def draw_branch_lengths(
+    path: Path, dpi: int, table: Table, statistics: Mapping, radius_max: float
+) -> Figure:
+    """Draw Fig. 7, the branch lengths, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    table : DataFrame
+        `branch_lengths.csv`.
+    statistics : mapping
+        `branch_lengths.json`.
+    radius_max : float
+        R_M [m].
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        drawn(
+            branches.plot_branch_lengths,
+            statistics.get("reason"),
+            table,
+            statistics,
+            radius_max,
+            ax=ax,
+        )
+    return ax.figure
+
+
+def draw_exponent_path(path: Path, dpi: int, states: Table, fit: EnergySplitFit) -> Figure:
+    """Draw n along the loading, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    states : DataFrame
+        `energy_split_path.csv`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        drawn(energy.plot_exponent_path, fit.reason, states, fit, ax=ax)
+    return ax.figure
+
+
+def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit) -> Figure:
+    """Draw what predicts the energies and their local exponents, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi, *grid(1, 2)) as panels:
+        drawn(predictors.plot_predictors, fit.reason, fit, ax=panels[0])
+        drawn(predictors.plot_slopes, fit.reason, fit, ax=panels[1])
+    return panels[0].figure
+
+
+def draw_crushing_model(path: Path, dpi: int, curves: Table, model: Mapping) -> Figure:
+    """Draw the curves of the crushing model, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    curves : DataFrame
+        `thermodynamics.csv`.
+    model : mapping
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    free, stress = r"free energy $\Psi$ [MJ/m³]", r"mean stress $\sigma$ [MPa]"
+    with figure(path, dpi, *grid(3, 2)) as panels:
+        for ax, plot, *data in (
+            (panels[0, 0], crushing.plot_reference_energy, curves),
+            (panels[0, 1], crushing.plot_family, curves, "free_energy_J_per_m3", free),
+            (panels[1, 0], crushing.plot_family, curves, "stress_Pa", stress),
+            (panels[1, 1], crushing.plot_crushing, curves, model),
+            (panels[2, 0], crushing.plot_driving_force, curves),
+            (panels[2, 1], crushing.plot_dissipation, curves),
+        ):
+            drawn(plot, model.get("reason"), *data, ax=ax)
+    return panels[0, 0].figure

@@ -1,0 +1,88 @@
+"""The figures of the networks of a sample, a function each: result files in, one picture out."""
+
+import os
+from collections.abc import Mapping
+
+from matplotlib.figure import Figure
+
+from branchcrush.files.tables import Table
+from branchcrush.plotting import branches, forces, shielding
+from branchcrush.plotting.style import drawn, figure, grid
+
+Path = str | os.PathLike
+
+
+def draw_who_touches_whom(
+    path: Path, dpi: int, numbers: Mapping, tables: Mapping[str, Table], radius_max: float
+) -> Figure:
+    """Draw contact numbers, pairs of radii and predicted branch lengths, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    numbers : dict
+        `contact_numbers.json`.
+    tables : mapping of DataFrame
+        `contact_numbers.csv`, `contact_pairs.csv` and `length_predictions.csv`, by these names
+        without their ends.
+    radius_max : float
+        R_M [m].
+
+    Returns
+    -------
+    Figure
+    """
+    lengths = tables["length_predictions"]
+    with figure(path, dpi, *grid(2, 2)) as panels:
+        for ax, plot, *data in (
+            (panels[0, 0], branches.plot_contact_numbers, tables["contact_numbers"], numbers),
+            (panels[0, 1], branches.plot_pairs, tables["contact_pairs"], numbers),
+            (panels[1, 1], branches.plot_mean_lengths, lengths),
+        ):
+            drawn(plot, numbers.get("reason"), *data, radius_max, ax=ax)
+        drawn(branches.plot_distances, numbers.get("reason"), lengths, ax=panels[1, 0])
+    return panels[0, 0].figure
+
+
+def draw_sharing(
+    path: Path, dpi: int, shared: Mapping, tables: Mapping[str, Table], radius_max: float
+) -> Figure:
+    """Draw who carries what: shielding, forces, stress and fabric; and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    shared : dict
+        `sharing.json`.
+    tables : mapping of DataFrame
+        `samples.sharing.TABLES` of the sample, by name.
+    radius_max : float
+        R_M [m].
+
+    Returns
+    -------
+    Figure
+    """
+    why = shared.get("reason")
+    by_branch = why or shared["end"]["shielding"]["branches"].get("reason")
+    with figure(path, dpi, *grid(4, 2)) as panels:
+        panels.flat[-1].set_axis_off()
+        for ax, (name, plot, result, *data) in zip(
+            panels.flat[:-1],
+            (
+                ("shielding_branches", shielding.plot_branch_shielding, by_branch, shared),
+                ("shielding_grains", shielding.plot_grain_shielding, why),
+                ("force_distribution", forces.plot_force_distribution, why, shared),
+                ("force_by_length", forces.plot_force_by_length, why, shared, radius_max),
+                ("stress_by_radius", forces.plot_stress_by_radius, why, radius_max),
+                ("stress_sharing", forces.plot_stress_sharing, why, shared),
+                ("fabric", forces.plot_fabric, why, shared),
+            ),
+            strict=True,
+        ):
+            drawn(plot, result, tables[name], *data, ax=ax)
+    return panels[0, 0].figure

@@ -1,0 +1,133 @@
+"""The figures of the packings of a sample, a function each: result files in, one picture out."""
+
+import os
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from branchcrush.files.tables import Table
+from branchcrush.packings.contact_laws import OVERLAP_FLAG
+from branchcrush.plotting import certificate, gradings, loading
+from branchcrush.plotting.packings import plot_packing
+from branchcrush.plotting.style import drawn, figure, grid
+from branchcrush.samples.ensemble import end_of_loading
+
+Path = str | os.PathLike
+
+
+def draw_grading(path: Path, dpi: int, grading: Table) -> Figure:
+    """Draw Fig. 3, the grading, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    grading : DataFrame
+        `grading.csv`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        gradings.plot_grading(grading, ax)
+    return ax.figure
+
+
+def draw_packing(
+    path: Path,
+    dpi: int,
+    packing: tuple[NDArray, NDArray, float],
+    particles: Mapping[str, NDArray],
+    loading_path: Table,
+    radius_max: float,
+) -> Figure:
+    """Draw Fig. 4, a packing before and after its loading to one scale, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    packing : tuple
+        Positions, shape (N, 3), radii, shape (N,), and edge of `packing.npz` [m].
+    particles : mapping of ndarray, shape (N,)
+        The frame of `particles.dump.gz` at the end of the loading: x, y, z, radius [m].
+    loading_path : DataFrame
+        `path.csv` of this packing.
+    radius_max : float
+        At the dark end of the colours [m].
+
+    Returns
+    -------
+    Figure
+    """
+    positions, radii, edge = packing
+    end = end_of_loading(loading_path)
+    scale = {"extent": edge, "radius_max": radius_max}
+    with figure(path, dpi, *grid(1, 2)) as (before, after):
+        plot_packing(positions, radii, edge, **scale, ax=before)
+        positions = np.column_stack([particles[axis] for axis in "xyz"])
+        last_edge = end["volume_m3"] ** (1 / 3)
+        plot_packing(positions, particles["radius"], last_edge, **scale, ax=after)
+        first = loading_path["solid_fraction"].iloc[0]
+        before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
+        after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")
+    return before.figure
+
+
+def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Figure:
+    """Draw stress, energies, coordination and elastic law along the loading, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    states : DataFrame
+        `path.csv` of all seeds, from `samples.ensemble.stacked`.
+    model : dict
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi, *grid(2, 2)) as panels:
+        loading.plot_mean_stress(states, ax=panels[0, 0])
+        loading.plot_energy_balance(states, ax=panels[0, 1])
+        loading.plot_coordination(states, ax=panels[1, 0])
+        drawn(loading.plot_elastic_law, model.get("reason"), states, model, ax=panels[1, 1])
+    return panels[0, 0].figure
+
+
+def draw_certificate(
+    path: Path, dpi: int, states: Table, jamming: Table, verdict: Mapping
+) -> Figure:
+    """Draw the certificate of every state and the jamming points, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    states : DataFrame
+        `certificate.csv`.
+    jamming : DataFrame
+        `jamming.csv`.
+    verdict : mapping
+        `certificate.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi, *grid(2, 2)) as panels:
+        certificate.plot_rest(states, verdict["limits"], ax=panels[0, 0])
+        certificate.plot_overlaps(states, OVERLAP_FLAG, ax=panels[0, 1])
+        certificate.plot_dissipation(states, ax=panels[1, 0])
+        certificate.plot_jamming(jamming, ax=panels[1, 1])
+    return panels[0, 0].figure

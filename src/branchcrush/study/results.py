@@ -1,0 +1,51 @@
+"""What the rules have found of one sample, as the rules of all samples read it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.files.tables import Table
+from branchcrush.study.kinds import SampleKind
+
+
+@dataclass(frozen=True)
+class SampleResults:
+    """The results of a sample that are put beside those of others.
+
+    Parameters
+    ----------
+    name : str
+    kind : SampleKind
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+    numbers : mapping
+        `contact_numbers.json`.
+    shared : mapping
+        `sharing.json`.
+    path : DataFrame
+        `energy_split_path.csv`.
+    states : DataFrame
+        `coordination.csv` of the sample.
+
+    Examples
+    --------
+    >>> kind = SampleKind("walls", "linear", {"form": "single"})
+    >>> nothing = {"reason": "no load"}
+    >>> loose = SampleResults("loose", kind, EnergySplitFit.read(nothing), nothing, nothing, 0, 0)
+    >>> loose.reason
+    'no load'
+    """
+
+    name: str
+    kind: SampleKind
+    fit: EnergySplitFit
+    numbers: Mapping
+    shared: Mapping
+    path: Table
+    states: Table
+
+    @property
+    def reason(self) -> str | None:
+        """Why something of the sample is not known: the first reason there is."""
+        reasons = (self.fit.reason, self.numbers.get("reason"), self.shared.get("reason"))
+        return next((reason for reason in reasons if reason), None)

@@ -1,0 +1,56 @@
+"""Each figure of the packings: one file, every panel given its table."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from branchcrush.plotting import certificate, loading, packing_figures
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
+    path = pd.DataFrame(
+        {
+            "leg": ["loading", "loading", "unloading"],
+            "solid_fraction": [0.16, 0.7, 0.65],
+            "volume_m3": [8e-9, 1e-9, 1.1e-9],
+        }
+    )
+    packing = (np.zeros((1, 3)), np.array([5e-4]), 2e-3)
+    after = {axis: np.array([0.0]) for axis in "xyz"} | {"radius": np.array([5e-4])}
+    first, last = drawn(packing_figures.draw_packing, packing, after, path, 1e-3)
+    assert first.get_xlim() == last.get_xlim()
+    assert "placed at random" in first.get_title() and "0.160" in first.get_title()
+    assert "compressed" in last.get_title() and "0.700" in last.get_title()
+    # An edge of 2 mm before and of 1 mm after.
+    ends = [[line.get_xdata() for line in ax.lines[:12]] for ax in (first, last)]
+    np.testing.assert_allclose(ends[0], 2.0 * np.array(ends[1]))
+
+
+def test_every_panel_of_the_certificate_has_its_table(drawn, given):
+    plots = ("plot_rest", "plot_overlaps", "plot_dissipation", "plot_jamming")
+    calls = given(certificate, *plots)
+    limits = {"inertial_number": 1e-4}
+    drawn(packing_figures.draw_certificate, "states", "jamming", {"limits": limits})
+    assert calls == {
+        "plot_rest": ("states", limits),
+        "plot_overlaps": ("states", 0.05),
+        "plot_dissipation": ("states",),
+        "plot_jamming": ("jamming",),
+    }
+
+
+def test_every_panel_of_the_loading_path_has_its_table_and_no_law_says_why(drawn, given):
+    plots = ("plot_mean_stress", "plot_energy_balance", "plot_coordination")
+    calls = given(loading, *plots)
+    axes = drawn(packing_figures.draw_loading_path, "path", {"reason": "no elastic law"})
+    assert calls == {name: ("path",) for name in plots}
+    assert axes[3].texts[0].get_text() == "no data: no elastic law"
+
+
+def test_the_elastic_law_is_drawn_with_its_fit(drawn, given):
+    plots = ("plot_mean_stress", "plot_energy_balance", "plot_coordination", "plot_elastic_law")
+    calls = given(loading, *plots)
+    drawn(packing_figures.draw_loading_path, "path", {"theta": 0.5})
+    assert calls["plot_elastic_law"] == ("path", {"theta": 0.5})

@@ -1,0 +1,43 @@
+"""How every figure looks: its size, its bytes, and numbers as they are."""
+
+import pandas as pd
+import pytest
+from matplotlib import image
+
+from branchcrush.plotting import style
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def test_the_same_data_give_the_same_bytes_at_the_size_asked(tmp_path):
+    for name in ("one", "two"):
+        with style.figure(tmp_path / "new" / f"{name}.png", 100, (3.0, 2.0)) as ax:
+            ax.plot([0, 1], [0, 1])
+    one, two = ((tmp_path / "new" / f"{name}.png") for name in ("one", "two"))
+    assert one.read_bytes() == two.read_bytes()
+    assert image.imread(one).shape[:2] == (200, 300)
+
+
+def test_no_axis_is_to_be_added_to_a_number_at_its_end(tmp_path):
+    with style.figure(tmp_path / "one.png", 50) as ax:
+        ax.plot([0.71, 0.71 + 1e-7], [1e6, 1e6 + 1.0])
+    assert ax.xaxis.get_offset_text().get_text() == ""
+    assert not ax.xaxis.get_major_formatter().get_useOffset()
+
+
+@pytest.mark.parametrize(
+    ("x", "limits"), [([0.3, 0.3 + 1e-9], (0.275, 0.325)), ([0.1, 0.9], (0.06, 0.94))]
+)
+def test_axes_are_widened_to_a_least_width_and_no_more(x, limits):
+    ax = style.axes()
+    ax.plot(x, [1.0, 2.0])
+    assert style.widen(ax).get_xlim() == pytest.approx(limits)
+
+
+def test_states_come_in_their_order_and_only_those_there_are():
+    table = pd.DataFrame({"where": ["end", "near_jamming", "end"], "x": [1, 2, 3]})
+    assert [(where, part["x"].tolist()) for where, part in style.of_states(table)] == [
+        ("near_jamming", [2]),
+        ("end", [1, 3]),
+    ]
+    assert [where for where, _ in style.of_states(table[:1])] == ["end"]

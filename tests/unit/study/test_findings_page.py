@@ -1,0 +1,96 @@
+"""The page of all samples: what it says of samples with a path, of one state, and of none."""
+
+import html
+import re
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from branchcrush.study.findings import finding_row
+from branchcrush.study.pages import render_findings
+
+TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "findings.html.jinja"
+FIGURES = ("exponents", "lengths", "energies", "coordination", "shielding", "forces")
+INTERVALS = {"confidence": 0.95, "resamples": 100}
+
+
+@pytest.fixture
+def page(tmp_path):
+    """Return a function that renders samples and returns the words of the page."""
+    image = tmp_path / "figure.png"
+    image.write_bytes(b"pixels")
+
+    def render(*samples, distance=0.1):
+        rows = pd.DataFrame([finding_row(sample, distance, INTERVALS) for sample in samples])
+        source = render_findings(
+            TEMPLATE.read_text(encoding="utf-8"), rows, dict.fromkeys(FIGURES, image)
+        )
+        assert not re.search(r"\b(nan|None|NaN|Undefined)\b", source)
+        assert source.count("<table") == source.count("</table>")
+        figures = [f'<img alt="{alt}">' for alt in re.findall(r'alt="([^"]+)"', source)]
+        words = re.sub(r"<style.*?</style>|<[^>]+>", " ", source, flags=re.S)
+        return re.sub(r"\s+", " ", html.unescape(words)) + " ".join(figures)
+
+    return render
+
+
+def test_each_sample_is_counted_and_named_where_its_interval_lies(page, sample):
+    text = page(
+        sample("a"),
+        sample("b", n=(2.5, 2.4, 2.6)),
+        sample("c", n=(2.6, 2.5, 2.7)),
+        sample("d", n=(3.0, 1.0, 5.0)),
+    )
+    assert (
+        "at the end of the loading it holds 3 in 1 (a), lies below 3 in 2 (b, c), "
+        "is too wide to tell in 1 (d)."
+    ) in text
+    assert "Of 4 samples with data, the interval of n at φ − φ J = 0.10 holds 3 in 4" in text
+    # No counts of nothing.
+    assert not re.search(r"\bin 0\b|\b0 of\b", text)
+
+
+def test_many_samples_are_counted_and_not_named(page, sample):
+    text = page(*(sample(f"s{k}") for k in range(8)))
+    assert "holds 3 in 8 (8 of the table below)" in text
+
+
+def test_one_state_says_what_it_can_and_cannot_tell(page, one_state):
+    text = page(one_state("alone"), distance=float("nan"))
+    assert "Of alone there is one loaded state, the end" in text
+    assert "whether n grows with compaction" in text and "loading.mean_stress" in text
+    assert "Of 1 sample with data, the interval of n at the end of the loading holds 3" in text
+    assert "first state in which every packing carries load" not in text
+    assert "where no sample has a state" in text
+    assert 'alt="branch lengths"' not in text and 'alt="exponents"' in text
+    assert not re.search(r"n at none|= none|\bin 0\b|\b0 of\b", text)
+
+
+def test_one_state_beside_a_path_leaves_that_its_numbers(page, sample, one_state):
+    text = page(sample("path"), one_state("alone"))
+    assert "Of alone there is one loaded state" in text
+    assert "at φ − φ J = 0.10 holds 3 in 1 (path)" in text
+    assert "measured ones in 1 of 1 sample." in text
+    assert 'alt="branch lengths"' in text
+
+
+def test_claims_are_counted_by_their_answers(page, sample):
+    text = page(
+        sample("a", claim="contradicted", branch_claim="supported"),
+        sample("b", branch_claim="undecided"),
+    )
+    assert "Per contact: contradicted in 1 (a), no such grain in 1 (b); per grain: contr" in text
+    assert "less than a tenth in 1 (a), too few to tell in 1 (b)." in text
+
+
+def test_bad_lengths_are_named(page, sample):
+    text = page(sample("good"), sample("bad", parking=0.1))
+    assert "measured ones in 1 of 2 samples (not in bad)." in text
+
+
+def test_a_study_without_any_number_says_why():
+    rows = pd.DataFrame({"sample": ["loose"], "reason": ["no load"]})
+    source = render_findings(TEMPLATE.read_text(encoding="utf-8"), rows, {})
+    assert "Not all is known of loose: no load." in source
+    assert "1. Where n" not in source
