@@ -80,7 +80,8 @@ def _write_seed(sample, seed, grains, states, contacts, settings, rng):
     import pandas as pd
 
     from branchcrush.files.tables import provenance, write_packing, write_table
-    from branchcrush.loading.states import path_row, state_contacts, wall_contacts
+    from branchcrush.loading.path import path_row
+    from branchcrush.loading.states import state_contacts, wall_contacts
     from branchcrush.packings.contact_laws import contact_law
     from branchcrush.packings.geometry import cube_edge
 
@@ -277,7 +278,8 @@ def judge_state(path, grains):
     import pandas as pd
 
     from branchcrush.files.tables import read_packing, read_table
-    from branchcrush.loading.states import law_error, path_row, state_contacts, wall_contacts
+    from branchcrush.loading.path import path_row
+    from branchcrush.loading.states import law_error, state_contacts, wall_contacts
     from branchcrush.packings.contact_laws import LinearContact
     from branchcrush.packings.contacts import mechanical_coordination_number, rattlers
     from branchcrush.packings.geometry import cube_edge
@@ -311,8 +313,8 @@ def judge_state(path, grains):
     timed(law_error, touching, walls, radii, law)
     at_wall = np.zeros(grains, dtype=int)
     i, j = touching["i"], touching["j"]
-    timed(rattlers, i, j, grains, at_wall)
-    timed(mechanical_coordination_number, i, j, grains, at_wall)
+    loose = timed(rattlers, i, j, grains, at_wall)
+    timed(mechanical_coordination_number, i, j, loose, at_wall)
     length = touching["radius_i_m"] + touching["radius_j_m"]
     timed(binned_sums, length, touching["energy_J"], bin_edges(5e-6, 1e-3))
     timed(power_law_fit, length, touching["energy_J"])
