@@ -40,7 +40,12 @@ class LinearDesign:
         """Return eta and its slope, as `statistics.gamma_regression.gamma_fit` takes them."""
         if theta is None or small is None or large is None:
             return [0.0, *self.start]
-        return _linear(theta, [np.ones_like(small), *self.columns(small, large)])
+        slope = self.slope(small, large)
+        return slope @ theta, slope
+
+    def slope(self, small: NDArray, large: NDArray) -> NDArray:
+        """Return the derivatives of eta by the parameters, shape (M, p)."""
+        return np.stack([np.ones_like(small), *self.columns(small, large)], axis=1)
 
 
 def prepared(
@@ -48,7 +53,7 @@ def prepared(
 ) -> tuple[Callable[..., Any], Sequence[tuple[NDArray, ...]]]:
     """Return a design and seeds that give the same fit, with what need be made only once made.
 
-    A fit asks for the columns of a linear design several times, and they are logarithms.
+    A fit asks for the slope of a linear design several times, and it is made of logarithms.
 
     Parameters
     ----------
@@ -66,23 +71,18 @@ def prepared(
     --------
     >>> reduced = LinearDesign(lambda small, large: [log_reduced_radius(small, large)], [2.0])
     >>> design, seeds = prepared(reduced, [(np.log([0.5]), np.log([0.5]), np.array([7.0]))])
-    >>> design(None), np.exp(seeds[0][0]).round(12).tolist(), seeds[0][-1].tolist()
+    >>> slope, energy = seeds[0]
+    >>> design(None), np.exp(slope[:, 1]).round(12).tolist(), energy.tolist()
     ([0.0, 2.0], [0.25], [7.0])
     """
     if not isinstance(design, LinearDesign) or not design.start:
         return design, seeds
     start = [0.0, *design.start]
 
-    def of_columns(theta: NDArray | None, *columns: NDArray) -> Any:
-        return start if theta is None else _linear(theta, [np.ones_like(columns[0]), *columns])
+    def of_slope(theta: NDArray | None, slope: NDArray | None = None) -> Any:
+        return start if theta is None or slope is None else (slope @ theta, slope)
 
-    made = [(*design.columns(small, large), energy) for small, large, energy in seeds]
-    return of_columns, made
-
-
-def _linear(theta: NDArray, columns: Sequence[NDArray]) -> tuple[NDArray, NDArray]:
-    slope = np.stack(columns, axis=1)
-    return slope @ theta, slope
+    return of_slope, [(design.slope(small, large), energy) for small, large, energy in seeds]
 
 
 def log_length(small: NDArray, large: NDArray) -> NDArray:
