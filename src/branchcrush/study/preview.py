@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from branchcrush.branches.lengths import random_contact_moment
+from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.model import admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.curves import grading_summary

@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from branchcrush.gradings.curves import from_percent_finer, ultimate_grading
+from branchcrush.gradings.curves import ultimate_grading
 from branchcrush.gradings.forms import uniform
 from branchcrush.gradings.mixtures import single
+from branchcrush.gradings.tables import from_percent_finer
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import LinearContact
