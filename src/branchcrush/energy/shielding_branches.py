@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.energy.designs import log_length
+from branchcrush.energy.designs import LinearDesign, log_length, prepared
 from branchcrush.energy.predictors import BranchColumns, branch_columns
 from branchcrush.energy.shielding import LARGER, ROUNDING, claim_answer
 from branchcrush.packings.network import Network
@@ -42,6 +42,12 @@ def network_branches(network: Network, radius_max: float) -> BranchColumns:
         As `energy.predictors.branch_columns`.
     """
     return branch_columns(network.radius_i, network.radius_j, network.energy, radius_max)
+
+
+# ln A + n ln l + s ln(r_min/r_max).
+_LENGTH_AND_RATIO = LinearDesign(
+    lambda small, large: [log_length(small, large), small - large], [3.0, 0.0]
+)
 
 
 def branch_shielding(
@@ -85,7 +91,9 @@ def branch_shielding(
         any draw.
     """
     options: dict[str, Any] = {"confidence": confidence, "resamples": resamples, "rng": rng}
-    both = gamma_fit(seeds, _length_and_ratio)
+    design, made = prepared(_LENGTH_AND_RATIO, seeds)
+    both = gamma_fit(made, design)
+    del made
     edges = _length_edges(seeds)
     sums = np.array([_seed_sums(*seed, edges) for seed in seeds])
     count, length, ratio, _ = sums.sum(axis=0)
@@ -119,15 +127,6 @@ def branch_shielding(
         **unequal_over_equal.named("unequal_over_equal"),
         "claim": claim_answer(unequal_over_equal, as_claimed, _FEWEST, "branch"),
     }
-
-
-def _length_and_ratio(
-    theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
-) -> list[float] | tuple[NDArray, NDArray]:
-    if theta is None or small is None or large is None:
-        return [0.0, 3.0, 0.0]
-    slope = np.stack([np.ones_like(small), log_length(small, large), small - large], axis=1)
-    return slope @ theta, slope
 
 
 def _length_edges(seeds: Sequence[BranchColumns]) -> NDArray:
