@@ -18,6 +18,7 @@ simulation counts, or by mass, as a sieve weighs.
 `representativity`
     Whether N grains can stand for a grading, and how near the drawn ones come to it.
 
-A new form is a function of `forms` that returns `truncated(density, ...)`, an entry of `FORMS` in
-`tests/unit/gradings/test_distribution.py`, and its section in `config.gradings`.
+A new form is a function of `forms` that returns `truncated(density, ...)`, its entry in
+`config.build.FORMS`, and its section in `config.gradings`; the tests of
+`tests/unit/gradings/test_distribution.py` then hold for it when it is listed there.
 """
