@@ -121,6 +121,14 @@ def test_first_state_with_energy_in_hardly_a_seed_leaves_the_fit_of_the_last(con
     assert ("exponent" in near[0]) == bool(loaded)
 
 
+def test_energy_density_is_the_mean_of_those_of_the_packings(sample):
+    branches, paths = sample
+    paths = [path.assign(volume_m3=volume) for path, volume in zip(paths, (2, 3, 4), strict=True)]
+    _, fit = split_of(branches, paths)
+    # 6 J in 2, 3 and 4 m3: 3, 2 and 1.5 J/m3.
+    assert_allclose(fit["elastic_energy_J_per_m3"], 6.5 / 3, rtol=1e-14)
+
+
 def test_fit_says_what_it_is_made_from(sample, contacts):
     branches, paths = sample
     _, fit = split_of(branches, paths)
