@@ -10,16 +10,14 @@ import numpy as np
 import pytest
 
 from branchcrush.loading.targets import STEP_FORCE_EVALUATIONS
+from tests.physics.search import BOUNDARIES, FACES, LAWS, STIFFNESS, Search
 
 GRAINS = 120
 STATES = 10
-BOUNDARIES, LAWS = ("walls", "periodic"), ("linear", "hertz")
-STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 # Coordinates are a few millimetres and doubles: an overlap is known to 1e-18 m or so. No contact
 # here is stiffer than 1e6 N/m.
 OVERLAP_ERROR = 1e-17
 FORCE_ERROR = 1.0e6 * OVERLAP_ERROR
-FACES = [(axis, side, f"{'-+'[side]}{'xyz'[axis]}") for axis in range(3) for side in (0, 1)]
 
 
 @pytest.fixture(scope="module", params=itertools.product(BOUNDARIES, LAWS), ids="-".join)
@@ -39,54 +37,6 @@ def packing(request, random_grains, compressed, even_edges, frames, tmp_path_fac
     pairs = frames(run.folder / "pairs.dump.gz")
     assert len(particles) == len(pairs) == len(run.path) == STATES
     return run, particles, pairs
-
-
-def contact_force(law, overlap, radius, other=np.inf):
-    """Return F of an overlap; the reduced radius is 1/(1/R + 1/R'), with a wall R."""
-    if law == "linear":
-        return STIFFNESS[law] * overlap
-    reduced = 1.0 / (1.0 / radius + 1.0 / other)
-    return STIFFNESS[law] * np.sqrt(reduced) * overlap**1.5
-
-
-class Search:
-    """The contacts of one frame of the particle dump: overlap and force of each."""
-
-    def __init__(self, frame, periodic, law):
-        lower, upper = frame.bounds.T
-        place, radius = frame.vectors("x", "y", "z"), frame.columns["radius"]
-        self.law, self.net = law, np.zeros_like(place)
-        self.pairs, self.walls, self.force, self.radius = {}, {}, {}, radius
-        images = itertools.product((-1, 0, 1), repeat=3) if periodic else [(0, 0, 0)]
-        for image in images:
-            vector = place[:, None] - place[None, :] - np.array(image) * (upper - lower)
-            distance = np.linalg.norm(vector, axis=-1)
-            overlap = radius[:, None] + radius[None, :] - distance
-            # Both orders of a pair are met: each once with its image and once with the opposite.
-            for i, j in np.argwhere((overlap > 0) & ~np.eye(len(radius), dtype=bool)):
-                force = contact_force(law, overlap[i, j], radius[i], radius[j])
-                self.net[i] += force * vector[i, j] / distance[i, j]
-                if i < j:
-                    assert (i, j) not in self.pairs, "the cell is too small for one image a pair"
-                    self.pairs[i, j], self.force[i, j] = overlap[i, j], force
-        for axis, side, name in [] if periodic else FACES:
-            gap = (place[:, axis] - lower[axis], upper[axis] - place[:, axis])[side]
-            for i in np.flatnonzero(radius - gap > 0):
-                force = contact_force(law, (radius - gap)[i], radius[i])
-                self.net[i, axis] += force * (1, -1)[side]
-                self.walls[i, name], self.force[i, name] = (radius - gap)[i], force
-
-    def virial(self):
-        """Return the sum of force times branch, or times the distance of the centre at a wall."""
-        branch = {(i, j): self.radius[[i, j]].sum() - d for (i, j), d in self.pairs.items()}
-        distance = {(i, wall): self.radius[i] - d for (i, wall), d in self.walls.items()}
-        return sum(self.force[key] * length for key, length in {**branch, **distance}.items())
-
-    def energies(self):
-        """Return the integral of the force over the overlap of each contact."""
-        exponent = {"linear": 1.0, "hertz": 1.5}[self.law]
-        overlaps = {**self.pairs, **self.walls}
-        return {key: self.force[key] * overlaps[key] / (exponent + 1.0) for key in overlaps}
 
 
 @pytest.fixture(scope="module")
@@ -278,49 +228,6 @@ def test_work_is_stored_or_dissipated_and_dissipation_never_runs_backwards(packi
     assert path["dissipated_J"].iloc[-1] > 0.01 * work
 
 
-@pytest.mark.parametrize("boundary", BOUNDARIES)
-@pytest.mark.parametrize("law", LAWS)
-def test_work_of_a_step_is_what_the_forces_of_its_affine_motion_do(
-    random_grains, compressed, frames, tmp_path, boundary, law
-):
-    periodic = boundary == "periodic"
-    placed = random_grains(60, 2, periodic=periodic)
-    edges = placed[2] * np.array([0.625, 0.622, 0.619, 0.616])
-    run = compressed(
-        placed,
-        tmp_path / "run",
-        boundary=boundary,
-        law=law,
-        stiffness=STIFFNESS[law],
-        approach_edge=float(edges[0]),
-        targets=edges[1:].tolist(),
-        # One step to each state.
-        strain_step=1.0,
-    )
-    work = run.path["work_J"].to_numpy()
-    states = frames(run.folder / "particles.dump.gz")[1:]
-    assert run.path["carries_load"].iloc[1:].all()
-    for n, (before, after) in enumerate(itertools.pairwise(edges), start=1):
-        ends = [before, (before + after) / 2.0, after]
-        first, middle, last = (
-            Search(shrunk(states[n - 1], edge / before), periodic, law) for edge in ends
-        )
-        pushes = [
-            search.virial() / edge for search, edge in zip((first, middle, last), ends, strict=True)
-        ]
-        simpson = (before - after) / 6.0 * np.dot([1.0, 4.0, 1.0], pushes)
-        np.testing.assert_allclose(work[n + 1] - work[n], simpson, rtol=1e-9)
-        added = sum(last.energies().values()) - sum(first.energies().values())
-        # Contacts close or open within the step: a few of some hundred.
-        np.testing.assert_allclose(simpson, added, rtol=2e-3)
-
-
-def shrunk(frame, factor):
-    """Return a frame with the cell and the grain centres scaled."""
-    places = {axis: factor * frame.columns[axis] for axis in "xyz"}
-    return frame._replace(bounds=factor * frame.bounds, columns={**frame.columns, **places})
-
-
 def test_every_force_follows_the_law(packing):
     path = packing[0].path
     assert (path["contact_law_error"] < 1e-12).all()
@@ -358,33 +265,6 @@ def test_the_steps_agree_with_the_states(packing):
     assert (at_rest | (taken >= STEP_FORCE_EVALUATIONS)).all()
     assert at_rest.mean() > 0.5
     assert (taken > 0).all()
-
-
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("offset", [0.01, 0.05])
-def test_a_fine_grain_caught_between_a_large_one_and_a_wall_stays_inside(
-    compressed, tmp_path, offset, law
-):
-    # One strain step closes the gap to a fortieth of the fine grain's size.
-    x = 1e-3 * np.array([-offset, 1.1])
-    run = compressed(
-        (np.column_stack([x, np.zeros((2, 2))]), 1e-3 * np.array([1, 0.02]), 2.3e-3),
-        tmp_path / "run",
-        law=law,
-        approach_edge=2.25e-3,
-        targets=[2.001e-3],
-        strain_step=1.0,
-    )
-    # The large grain on the left wall, the fine one between it and the right wall: 3 contacts in
-    # a row share what the diameters are too long by. One force: linear, one overlap; Hertz, an
-    # overlap that goes with the third root of the curvature 1/R*.
-    shortening, curvature = 1e-3 * (2 * (1 + 0.02) - 2.001), np.array([1, 1 / 0.02, 1 + 1 / 0.02])
-    shares = np.ones(3) if law == "linear" else np.cbrt(curvature)
-    large, fine, between = shortening * shares / shares.sum()
-    walls = run.at("walls", -1)
-    assert list(zip(walls["i"], walls["wall"], strict=True)) == [(0, "-x"), (1, "+x")]
-    np.testing.assert_allclose(walls["overlap_m"], [large, fine], rtol=1e-6)
-    np.testing.assert_allclose(run.at("contacts", -1)["overlap_m"], between, rtol=1e-6)
 
 
 def test_nothing_moves_in_a_saved_state(packing):
