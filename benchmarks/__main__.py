@@ -26,6 +26,7 @@ PARTS = (
     "analysis",
     "neighbours",
     "paths",
+    "tolerance",
     "breakdown",
 )
 RESULTS = Path(__file__).with_name("results")

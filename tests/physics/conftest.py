@@ -109,10 +109,10 @@ def even_edges():
 
 @pytest.fixture(scope="session")
 def frames():
-    """Return a function that reads the frames of a gzipped dump line by line."""
+    """Return a function that reads the frames of a dump, plain or gzipped, line by line."""
 
     def read(path):
-        with gzip.open(path, "rt") as file:
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt") as file:
             lines = iter(file.read().splitlines())
         found = []
         for line in lines:

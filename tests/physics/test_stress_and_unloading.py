@@ -31,7 +31,8 @@ def cycle(request, random_grains, compressed, tmp_path_factory):
         law=law,
         control="stress",
         targets=targets + targets[-2:0:-1],
-        approach_edge=cube_edge(packing[1], 0.5),
+        # So few grains may jam at 0.5 between walls, under more than the first stress.
+        approach_edge=cube_edge(packing[1], 0.42),
         strain_step=STRAIN_STEP,
     )
 

@@ -1,6 +1,5 @@
 """The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
 
-import shutil
 import tempfile
 import time
 from collections.abc import Mapping
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
 from branchcrush.gradings.sampling import sampled_radii
-from branchcrush.lammps.files import write_data_file
+from branchcrush.lammps.files import compress_file, write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.output import DUMPS, Compression, read_compression
 from branchcrush.lammps.run import run_script
@@ -124,7 +123,7 @@ def compress(
 ) -> Compression:
     """Compress a packing in LAMMPS and return its loading path and contacts.
 
-    Runs `in.compress`; its dumps are moved into the folder when the run is complete. Where the
+    Runs `in.compress`; its dumps are gzipped into the folder when the run is complete. Where the
     script has to stop on the way (a grain escapes, a state does not come to rest, a stress is not
     reached) the states saved so far are returned, and column `stopped` of the last says why.
 
@@ -181,7 +180,7 @@ def compress(
         )
         tables = read_compression(scratch, variables, stopped)
         for name in DUMPS:
-            shutil.move(scratch / name, folder / name)
+            compress_file(scratch / name, folder / f"{name}.gz")
     return tables
 
 

@@ -1,6 +1,8 @@
 """LAMMPS data and dump files: written for, and read back from, `lammps_inputs/in.compress`."""
 
+import gzip
 import io
+import shutil
 from collections.abc import Iterator
 from itertools import islice
 from os import PathLike
@@ -93,6 +95,32 @@ def read_dump(path: str | PathLike[str]) -> Iterator[dict[str, np.ndarray]]:
             header = _lines(file, _HEADER_LINES).decode("ascii").splitlines()
             # "ITEM: NUMBER OF ..." and below it the number; "ITEM: ATOMS id type ...".
             yield _frame(file, int(header[3]), header[8].split()[2:])
+
+
+def compress_file(source: str | PathLike[str], target: str | PathLike[str]) -> None:
+    """Write a file gzipped, as one stream, the same bytes whenever it is done.
+
+    Parameters
+    ----------
+    source, target : path-like
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "pairs.dump")
+    ...     _ = path.write_text("ITEM: TIMESTEP")
+    ...     compress_file(path, f"{path}.gz")
+    ...     print(gzip.decompress(pathlib.Path(f"{path}.gz").read_bytes()).decode())
+    ITEM: TIMESTEP
+    """
+    # Text of LAMMPS hardly becomes smaller by a higher level, which takes several times as long.
+    with (
+        open(source, "rb") as plain,
+        open(target, "wb") as file,
+        gzip.GzipFile("", "wb", compresslevel=1, fileobj=file, mtime=0) as packed,
+    ):
+        shutil.copyfileobj(plain, packed, _BUFFER)
 
 
 def _frame(file, rows, columns):

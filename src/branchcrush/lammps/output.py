@@ -16,7 +16,7 @@ from branchcrush.loading.states import state_contacts, wall_contacts
 from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.packings.geometry import cube
 
-DUMPS = ("particles.dump.gz", "pairs.dump.gz")
+DUMPS = ("particles.dump", "pairs.dump")
 
 
 class Compression(NamedTuple):

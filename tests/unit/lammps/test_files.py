@@ -1,7 +1,9 @@
 """LAMMPS files: what is written holds every digit, what is read is what the file says."""
 
 import gzip
+import os
 import weakref
+import zlib
 
 import numpy as np
 import pandas as pd
@@ -10,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
-from branchcrush.lammps.files import read_dump, write_data_file
+from branchcrush.lammps.files import compress_file, read_dump, write_data_file
 
 ATOMS = """\
 ITEM: TIMESTEP
@@ -249,3 +251,20 @@ def test_gzip_that_breaks_off_is_refused(tmp_path):
     path.write_bytes(path.read_bytes()[:-20])
     with pytest.raises(OSError, match="Truncated"):
         list(frames_of(path))
+
+
+def test_compressed_dump_is_one_stream_whose_bytes_do_not_tell_when(tmp_path):
+    # OVITO reads the first stream of a file and believes that there is no other frame. More than
+    # one portion of it, so that portions are no streams.
+    text = ATOMS.encode() * 5000
+    (tmp_path / "pairs.dump").write_bytes(text)
+    for name, time in (("one", 1e9), ("other", 1.5e9)):
+        os.utime(tmp_path / "pairs.dump", (time, time))
+        compress_file(tmp_path / "pairs.dump", tmp_path / name)
+    stream = zlib.decompressobj(wbits=31)
+    assert stream.decompress((tmp_path / "one").read_bytes()) == text
+    assert stream.eof
+    assert stream.unused_data == b""
+    assert (tmp_path / "one").read_bytes() == (tmp_path / "other").read_bytes()
+    # The header holds no time and no name.
+    assert (tmp_path / "one").read_bytes()[3:8] == bytes(5)
