@@ -86,9 +86,7 @@ def _packing(seed, states):
         text = text.replace(_TOLERANCE, f"ternary(v_is_state,{saved},v_step_tolerance)")
         (inputs / "mod.edge").write_text(text, encoding="utf-8")
         log = Path(scratch) / "log"
-        done = compress(
-            positions, radii, edge, variables, inputs=inputs, folder=scratch, log=log
-        )
+        done = compress(positions, radii, edge, variables, inputs=inputs, folder=scratch, log=log)
     # Of the states that carry load; before them there are the packing and the approach.
     path = {name: column[2:].reshape(states, finer) for name, column in done.path.items()}
     loaded = path["carries_load"].all(axis=1)
@@ -104,9 +102,7 @@ def _row(done, path, loaded, taken, n):
     sums = binned_sums(length, done.contacts["energy_J"][last], bin_edges(*ENDS))
     contacts = np.bincount(done.contacts["state"], minlength=path["state"][-1, -1] + 1)
     contacts = contacts[path["state"]][loaded]
-    row = {
-        name: float(np.abs(at[name][:, n] / at[name][:, -1] - 1.0).max()) for name in QUANTITIES
-    }
+    row = {name: float(np.abs(at[name][:, n] / at[name][:, -1] - 1.0).max()) for name in QUANTITIES}
     return row | {
         "contacts": int(np.abs(contacts[:, n] - contacts[:, -1]).max()),
         "unbalanced_force_ratio": float(at["unbalanced_force_ratio"][:, n].max()),

@@ -18,7 +18,7 @@ BURST = [[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0], [0.5e-3, 0.8e-3, 0.1e-3], [0.5e-3, 0
 
 @pytest.fixture
 def every_step(lammps_inputs, lmp, tmp_path, frames):
-    """Return a function that gives a frame of each force evaluation of a run, dashpots too weak to tell."""
+    """Return a function that gives a frame of each force evaluation, dashpots too weak to tell."""
 
     def run(packing, **variables):
         folder = shutil.copytree(lammps_inputs, tmp_path / "inputs")

@@ -56,6 +56,7 @@ rule compression:
             "contact",
             "loading",
             "strain_step",
+            "state_tolerance",
         ),
     script:
         "../scripts/compression.py"

@@ -18,7 +18,12 @@ from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
 from branchcrush.config.stresses import increasing_stresses
 from branchcrush.errors import ConfigError
-from branchcrush.loading.targets import STRAIN_TARGETS, final_solid_fraction, strain_step
+from branchcrush.loading.targets import (
+    STATE_TOLERANCES,
+    STRAIN_TARGETS,
+    final_solid_fraction,
+    strain_step,
+)
 
 # Ends the name of a sample run with twice the strain steps, to judge its convergence.
 REFINED = "-refined"
@@ -194,6 +199,7 @@ class Sample(Section):
             **self.model_dump(exclude_none=True),
             "loading": self.loading.plain(),
             "strain_step": strain_step(self.loading.quality, refinement),
+            "state_tolerance": STATE_TOLERANCES[self.loading.quality],
             "quality": self.loading.quality,
             "seeds": seeds,
         }

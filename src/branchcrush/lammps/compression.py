@@ -20,9 +20,9 @@ from branchcrush.lammps.run import run_script
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.states import force_floor, stress_floor
 from branchcrush.loading.targets import (
+    STATE_TOLERANCES,
     STEP_FORCE_EVALUATIONS,
     STEP_UNBALANCED_FORCE_RATIO,
-    UNBALANCED_FORCE_RATIO,
     Loading,
     loading_targets,
 )
@@ -43,6 +43,7 @@ def compression_variables(
     law: LinearContact | HertzContact,
     loading: Loading,
     strain_step: float,
+    state_tolerance: float = STATE_TOLERANCES["fine"],
 ) -> dict[str, Any]:
     """Return the variables of `in.compress` for a packing and its loading.
 
@@ -57,6 +58,8 @@ def compression_variables(
     loading : Loading
     strain_step : float
         Largest linear strain of a step [-].
+    state_tolerance : float
+        Largest unbalanced force ratio of a saved state [-].
 
     Returns
     -------
@@ -103,7 +106,7 @@ def compression_variables(
         "strain_step": float(strain_step),
         "step_tolerance": STEP_UNBALANCED_FORCE_RATIO[control],
         "step_evaluations": STEP_FORCE_EVALUATIONS,
-        "state_tolerance": UNBALANCED_FORCE_RATIO,
+        "state_tolerance": float(state_tolerance),
         "force_floor": force_floor(radii, law),
         "largest_radius": largest,
         **neighbour_settings(radii, approach_edge),
@@ -235,6 +238,7 @@ def sample_variables(sample: Sample, radii: ArrayLike) -> dict[str, Any]:
         law=sample.law,
         loading=sample.loading,
         strain_step=sample.strain_step,
+        state_tolerance=sample.state_tolerance,
     )
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from branchcrush.gradings.distribution import Grading
-from branchcrush.loading.targets import Loading
+from branchcrush.loading.targets import STATE_TOLERANCES, Loading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
 
@@ -20,6 +20,8 @@ class Sample:
     law: LinearContact | HertzContact
     loading: Loading
     strain_step: float  # largest linear strain of a step [-]
+    # Largest unbalanced force ratio of a saved state [-].
+    state_tolerance: float = STATE_TOLERANCES["fine"]
     seeds: tuple[int, ...] = ()
     refined_seeds: int = 0  # of them run again with twice the strain steps
     ranks: int = 1  # MPI processes that share a packing

@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
 
-# Largest linear strain of a step [-]. docs/quality.md tells what each is good for, measured.
+# By quality, the largest linear strain of a step [-], and the largest mean net force over mean
+# contact force of a saved state [-]. docs/quality.md tells what each is good for, measured.
 STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}
-# Mean net force over mean contact force [-], whatever the quality: of a saved state, and of a
-# strain step on the way to an edge, or to a stress, which must be told from the next step's.
-UNBALANCED_FORCE_RATIO = 1.0e-7
+STATE_TOLERANCES = {"draft": 1.0e-6, "standard": 1.0e-6, "fine": 1.0e-7}
+# Mean net force over mean contact force [-], whatever the quality, of a strain step on the way to
+# an edge, or to a stress, which must be told from the next step's.
 STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 1.0e-2}
 # A step to an edge that does not get there in so many force evaluations goes on as it is. Close to
 # jamming most do not: the packing moves on before it has come to rest.

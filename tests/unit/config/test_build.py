@@ -233,6 +233,7 @@ def test_settings_of_a_checked_configuration_are_those_of_a_sample():
     assert sample.loading.stresses == [1e5, 1e6]
     # Half of a draft's.
     assert sample.strain_step == pytest.approx(3.4e-3)
+    assert sample.state_tolerance == 1e-6
     assert (sample.law.name, sample.law.stiffness) == ("linear", 1e6)
 
 

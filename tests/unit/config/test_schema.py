@@ -126,10 +126,14 @@ def test_refined_sample_differs_in_its_strain_steps_and_seeds_only():
     assert sample_of(seeds=2, refined_seeds=4).settings(refinement=2)["seeds"] == [1, 2]
 
 
-@pytest.mark.parametrize(("quality", "step"), [("draft", 6.8e-3), ("fine", 4.25e-4)])
-def test_quality_sets_the_strain_step(quality, step):
+@pytest.mark.parametrize(
+    ("quality", "step", "tolerance"),
+    [("draft", 6.8e-3, 1e-6), ("standard", 1.7e-3, 1e-6), ("fine", 4.25e-4, 1e-7)],
+)
+def test_quality_sets_the_strain_step_and_the_tolerance(quality, step, tolerance):
     settings = sample_of(loading={**LOADING, "quality": quality}).settings()
-    assert (settings["quality"], settings["strain_step"]) == (quality, step)
+    asked = settings["quality"], settings["strain_step"], settings["state_tolerance"]
+    assert asked == (quality, step, tolerance)
 
 
 # --- documented ----------------------------------------------------------------------------------

@@ -121,10 +121,13 @@ def test_stress_that_needs_no_load_is_refused():
 
 def test_variables_of_a_sample_are_those_of_its_values():
     law, loading = HertzContact(7e10), Loading("mean_stress", [1e6], approach_solid_fraction=0.5)
-    sample = sample_with(boundary="periodic", law=law, loading=loading, strain_step=4e-3)
+    sample = sample_with(
+        boundary="periodic", law=law, loading=loading, strain_step=4e-3, state_tolerance=1e-6
+    )
     variables = sample_variables(sample, EIGHT)
     assert (variables["boundary"], variables["law"]) == ("periodic", "hertz")
     assert (variables["targets"], variables["strain_step"]) == ([1e6], 4e-3)
+    assert variables["state_tolerance"] == 1e-6
     assert variables["approach_edge"] == pytest.approx((SOLID / 0.5) ** (1 / 3))
     # From twice as dense, to an end that is.
     to_strain = sample_with(initial_solid_fraction=0.2)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from branchcrush.loading.targets import (
+    STATE_TOLERANCES,
     STRAIN_STEPS,
     STRAIN_TARGETS,
     Loading,
@@ -18,6 +19,7 @@ from branchcrush.loading.targets import (
 )
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
+from branchcrush.samples.certificate import LIMITS
 
 RADII = np.array([1.0, 0.5, 0.25])
 
@@ -90,9 +92,14 @@ def test_a_single_stress_has_no_way_back():
 def test_a_better_quality_and_a_refinement_take_smaller_steps():
     draft, standard, fine = (strain_step(quality) for quality in ("draft", "standard", "fine"))
     assert draft > standard > fine > 0
-    assert list(STRAIN_STEPS) == ["draft", "standard", "fine"]
+    assert list(STRAIN_STEPS) == list(STATE_TOLERANCES) == ["draft", "standard", "fine"]
     assert strain_step("standard", 2) == standard / 2
     assert strain_step("draft", 4) == strain_step("standard")
+
+
+def test_a_state_of_any_quality_may_be_certified():
+    # Half of the tolerance is what relaxation aims at.
+    assert max(STATE_TOLERANCES.values()) <= LIMITS["unbalanced_force_ratio"]
 
 
 # --- what is expected of a loading ----------------------------------------------------------------
