@@ -45,6 +45,7 @@ include ${inputs}/mod.cell
 include ${inputs}/mod.mass
 variable end equal $(step+v_evaluations)
 label relax
+if "${boundary} == walls" then "include ${inputs}/mod.near"
 run $(ternary(v_end-step<v_longest_run,v_end-step,v_longest_run)) pre no post no
 velocity all set 0 0 0
 if "$(step) < ${end}" then "jump SELF relax"
