@@ -86,7 +86,7 @@ def run(seeds=(9, 10, 11, 12, 13), grains=1000, comparisons=COMPARISONS, new_use
     lacking = absent({code for codes in comparisons.values() for code in codes})
     with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
         folder = Path(folder)
-        cases = {int(seed): _case(folder, int(seed), grains) for seed in seeds}
+        cases = {int(seed): paper_case(folder, int(seed), grains) for seed in seeds}
         first = next(iter(cases))
         runs = {
             name: {code: [] for code in codes if code not in lacking}
@@ -113,7 +113,7 @@ def run(seeds=(9, 10, 11, 12, 13), grains=1000, comparisons=COMPARISONS, new_use
     return result
 
 
-def _case(folder, seed, grains):
+def paper_case(folder, seed, grains):
     """Return the case of a seed: the packing that the workflow makes of it."""
     rng = np.random.default_rng(seed)
     radii = sampled_radii(grading_of(GRADING), grains, "random", rng)
