@@ -14,7 +14,7 @@ from benchmarks.dense import apart, peak_bytes
 from benchmarks.fractal import APPROACH, STIFFNESS, TOLERANCE, loose_case
 from benchmarks.measure import MemoryOfChildren
 from benchmarks.paths import UNLIMITED, quantities
-from benchmarks.sizes import estimate, line_of_size, power_of_size
+from benchmarks.sizes import estimate, line_of_size, power_of_size, shares
 from branchcrush.loading.targets import strain_step
 from branchcrush.packings.geometry import cube_edge
 
@@ -142,6 +142,8 @@ def _row(folder, placed, solid_fraction, ranks):
     with MemoryOfChildren() as memory:
         done = run_tables(case, folder, f"{Path(loose['packing']).stem}_{ranks}")
     state, steps = done["tables"].path, done["tables"].steps
+    if state["stopped"][-1]:
+        raise RuntimeError(f"{len(radii)} grains on {ranks} rank(s): {state['stopped'][-1]}")
     evaluations, cpu = done["evaluations"], done["cpu_s"]
     return {
         **placement,
@@ -154,33 +156,6 @@ def _row(folder, placed, solid_fraction, ranks):
         "peak_MB": memory.peak_MB,
         "output_MB": done["output_MB"],
         "state": {name: float(state[name][-1]) for name in _STATE},
-        "stopped": str(state["stopped"][-1]),
-    }
-
-
-def shares(evaluations):
-    """Return how many force evaluations each part of a path to one state took.
-
-    Parameters
-    ----------
-    evaluations : array_like of int
-        So far, at the end of the approach and of each strain step; the last one is the state's.
-
-    Returns
-    -------
-    dict of int
-        `approach_evaluations`, `steps_evaluations` and `final_evaluations`.
-
-    Examples
-    --------
-    >>> shares([100, 150, 170, 400])
-    {'approach_evaluations': 100, 'steps_evaluations': 70, 'final_evaluations': 230}
-    """
-    approach, *_, before, end = (int(number) for number in evaluations)
-    return {
-        "approach_evaluations": approach,
-        "steps_evaluations": before - approach,
-        "final_evaluations": end - before,
     }
 
 
@@ -200,7 +175,7 @@ def _line(row):
     line = "{grains} grains, seed {seed}, {ranks} rank(s): {wall_s:.1f} s, {cpu_s:.1f} CPU s, "
     line += parts + ", {peak_MB:.0f} MB, {mean_stress_Pa:.2e} Pa, Z "
     line += "{coordination_number:.2f}, unbalanced {unbalanced_force_ratio:.0e}"
-    return line.format(**told) + (f", {row['stopped']}" if row["stopped"] else "")
+    return line.format(**told)
 
 
 def summary(result):

@@ -5,6 +5,32 @@ import numpy as np
 from benchmarks.measure import mean_and_error
 
 
+def shares(evaluations):
+    """Return how many force evaluations each part of a path to one state took.
+
+    Parameters
+    ----------
+    evaluations : array_like of int
+        So far, at the end of the approach and of each strain step; the last one is the state's.
+
+    Returns
+    -------
+    dict of int
+        `approach_evaluations`, `steps_evaluations` and `final_evaluations`.
+
+    Examples
+    --------
+    >>> shares([100, 150, 170, 400])
+    {'approach_evaluations': 100, 'steps_evaluations': 70, 'final_evaluations': 230}
+    """
+    approach, before, end = (int(evaluations[k]) for k in (0, -2, -1))
+    return {
+        "approach_evaluations": approach,
+        "steps_evaluations": before - approach,
+        "final_evaluations": end - before,
+    }
+
+
 def power_of_size(rows, name):
     r"""Return how a quantity grows with the number of grains, by least squares of its logarithm.
 
