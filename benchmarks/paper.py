@@ -50,7 +50,6 @@ _TRICKS = {
         "skin": 0.3,
         "time_step": 0.5,
         "drag": 0.0,
-        "step_tolerance": 1.5e-2,
         "check_every": 500,
     },
 }
