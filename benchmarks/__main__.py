@@ -1,8 +1,8 @@
 """Measure a part, and write what came of it: python -m benchmarks PART [NAME=VALUE ...]
 
-PART is one of the names below, or `all`. A NAME=VALUE, the value as JSON, is a setting of the
-part's `run`, for a trial; its result goes to a folder named by --results, so that no trial is taken
-for a result.
+PART is one of the names below, or `all`, which leaves out those that need a setting (`before`). A
+NAME=VALUE, the value as JSON, is a setting of the part's `run`, for a trial; its result goes to a
+folder named by --results, so that no trial is taken for a result.
 """
 
 import argparse
@@ -20,6 +20,7 @@ from benchmarks.measure import machine
 PARTS = (
     "paper",
     "fractal",
+    "large",
     "growth",
     "mpi",
     "overhead",
@@ -29,6 +30,8 @@ PARTS = (
     "tolerance",
     "breakdown",
 )
+# These need settings, so `all` leaves them out.
+NEED_SETTINGS = ("before",)
 RESULTS = Path(__file__).with_name("results")
 # What is shown of a result without a `summary` of its own.
 _MOST_LINES = 20
@@ -37,7 +40,7 @@ _MOST_LINES = 20
 def main(arguments=None):
     """Run the parts asked for; return 1 if one of them failed, after all the others."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument("part", choices=["all", *PARTS])
+    parser.add_argument("part", choices=["all", *PARTS, *NEED_SETTINGS])
     parser.add_argument("settings", nargs="*", metavar="NAME=VALUE")
     parser.add_argument("--results", type=Path, help="folder of what is written")
     asked = parser.parse_args(arguments)

@@ -8,11 +8,15 @@ import numpy as np
 
 from benchmarks.judge import near_pairs, state_of
 from benchmarks.measure import missing, run_timed
+from branchcrush.lammps.output import Compression
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
 
+CHECKOUT = Path(__file__).resolve().parents[1]
 _PEERS = Path(__file__).with_name("peers")
 _PYTHON = [sys.executable]
+# BLAS and OpenMP would otherwise take what they find.
+_ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 # The command of each, and the program that has to be installed for it.
 _CODES = {
     "branchcrush": ([*_PYTHON, _PEERS / "branchcrush_compress.py"], None),
@@ -85,9 +89,7 @@ def run_case(code, case, folder, name, timeout=None):
     command, _ = _CODES[code]
     given, output = folder / f"{name}.case.json", folder / f"{name}.json"
     given.write_text(json.dumps(case, indent=2), encoding="utf-8")
-    # One thread each: BLAS and OpenMP would otherwise take what they find.
-    threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    taken = run_timed([*command, given, output], threads, timeout)
+    taken = run_timed([*command, given, output], _ONE_THREAD, timeout)
     report = json.loads(output.read_text(encoding="utf-8"))
     result = {**taken, "report": report}
     if "iterations" in report:
@@ -96,6 +98,43 @@ def run_case(code, case, folder, name, timeout=None):
     if output.with_suffix(".npz").exists():
         result["packing"] = str(output.with_suffix(".npz").resolve())
     return result
+
+
+def run_tables(case, folder, name, checkout=CHECKOUT):
+    """Run branchcrush from a checkout as a process of its own; return what it took, and its tables.
+
+    Parameters
+    ----------
+    case : dict
+        As `peers/README.md` tells; `ranks`, of MPI, may be in it.
+    folder : pathlib.Path
+        For the case and its output.
+    name : str
+        Of their files.
+    checkout : path-like
+        Holds src, lammps_inputs and benchmarks/peers.
+
+    Returns
+    -------
+    dict
+        `cpu_s`, `wall_s` and `peak_MB` as `run_case`; `evaluations`; `inside_s` and
+        `inside_cpu_s` of the compression without the start of Python, the latter without ranks;
+        `output_MB` of the dumps; `tables`, a `Compression` without contacts.
+    """
+    given, output = folder / f"{name}.case.json", folder / f"{name}.json"
+    given.write_text(json.dumps(case, indent=2), encoding="utf-8")
+    checkout = Path(checkout).resolve()
+    environment = {**_ONE_THREAD, "PYTHONPATH": str(checkout / "src")}
+    script = _PEERS / "branchcrush_tables.py"
+    taken = run_timed([*_PYTHON, script, checkout, given, output], environment)
+    report = json.loads(output.read_text(encoding="utf-8"))
+    path, steps = (
+        {column: np.array(values) for column, values in report.pop(table).items()}
+        for table in ("path", "steps")
+    )
+    evaluations = int(path["force_evaluations"][-1])
+    tables = Compression(path, {}, {}, steps)
+    return {**taken, **report, "evaluations": evaluations, "tables": tables}
 
 
 def _inside(report):

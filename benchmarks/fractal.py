@@ -78,7 +78,7 @@ def run(grains=20_000, ratio=20.0, pairs=5, evaluations=300, peer_evaluations=10
     lacking = absent([code for code, _ in PARTS.values()])
     with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
         folder = Path(folder)
-        dense, made = _dense(folder, grains, ratio)
+        dense, made = dense_case(folder, grains, ratio)
         part = {**dense, "final_edge": dense["edge"] * (1.0 - STRAIN)}
         runs = {name: [] for name, (code, _) in PARTS.items() if code not in lacking}
         for pair in range(pairs):
@@ -93,13 +93,19 @@ def run(grains=20_000, ratio=20.0, pairs=5, evaluations=300, peer_evaluations=10
     return result
 
 
-def _dense(folder, grains, ratio):
-    """Make the dense packing; return the case that begins from it, and what it took."""
-    rng = np.random.default_rng(1)
+def loose_case(folder, grains, ratio, seed=1):
+    """Return the radii [m] of a packing of the grading, and the case that begins from it, loose."""
+    rng = np.random.default_rng(seed)
     section = {**GRADING, "min": LARGEST / ratio, "max": LARGEST}
     radii = sampled_radii(grading_of(section), grains, "random", rng)
+    return radii, loose_packing(folder, f"loose_{grains}_{seed}", radii, FRACTION, True, rng)
+
+
+def dense_case(folder, grains, ratio):
+    """Make the dense packing; return the case that begins from it, and what it took."""
+    radii, loose = loose_case(folder, grains, ratio)
     case = {
-        **loose_packing(folder, "loose", radii, FRACTION, True, rng),
+        **loose,
         "final_edge": float(cube_edge(radii, DENSE)),
         "normal_stiffness": STIFFNESS,
         "state_tolerance": 1e-3,

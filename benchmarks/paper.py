@@ -27,6 +27,32 @@ STIFFNESS, TOLERANCE, BINS = 1e6, 1e-7, 20
 _STEP, _EVALUATIONS = strain_step("standard"), 200
 _END = final_solid_fraction(FRACTION, "edge_reduction", REDUCTION)
 _STEPS = int(np.ceil(np.log(_END / APPROACH) / 3.0 / _STEP))
+_SAME_PATH = {
+    "branchcrush": {"strain_step": _STEP, "step_evaluations": _EVALUATIONS, "states": 1},
+    "yade": {
+        "strain_step": _STEP,
+        "step_tolerance": 3e-2,
+        "largest_step_iterations": _EVALUATIONS,
+    },
+    # It relaxes each step, in the approach as well, for a fixed number of iterations: there in
+    # steps of 4e-2, as YADE takes them.
+    "liggghts": {"steps": _STEPS, "relax": _EVALUATIONS, "approach_steps": 10},
+}
+# What else of branchcrush, or of their own, the others can be taught: peers/README.md.
+_TRICKS = {
+    "branchcrush": {},
+    "yade": {"walls": "plane", "turning": False},
+    "liggghts": {
+        "tricks": True,
+        "newton": "on",
+        "sort": 1000,
+        "look": 20,
+        "skin": 0.3,
+        "time_step": 0.5,
+        "drag": 0.0,
+        "check_every": 500,
+    },
+}
 COMPARISONS = {
     # The fastest path of each whose state agrees with that of small steps: peers/README.md.
     "fastest_path_of_each": {
@@ -34,16 +60,9 @@ COMPARISONS = {
         "yade": {},
         "liggghts": {},
     },
-    "same_path_for_all": {
-        "branchcrush": {"strain_step": _STEP, "step_evaluations": _EVALUATIONS, "states": 1},
-        "yade": {
-            "strain_step": _STEP,
-            "step_tolerance": 3e-2,
-            "largest_step_iterations": _EVALUATIONS,
-        },
-        # It relaxes each step, in the approach as well, for a fixed number of iterations: there in
-        # steps of 4e-2, as YADE takes them.
-        "liggghts": {"steps": _STEPS, "relax": _EVALUATIONS, "approach_steps": 10},
+    "same_path_for_all": _SAME_PATH,
+    "same_path_with_every_trick": {
+        code: {**path, **_TRICKS[code]} for code, path in _SAME_PATH.items()
     },
     "what_the_workflow_does": {
         "branchcrush": {"strain_step": _STEP, "step_evaluations": _EVALUATIONS, "states": 15}
@@ -86,7 +105,7 @@ def run(seeds=(9, 10, 11, 12, 13), grains=1000, comparisons=COMPARISONS, new_use
     lacking = absent({code for codes in comparisons.values() for code in codes})
     with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
         folder = Path(folder)
-        cases = {int(seed): _case(folder, int(seed), grains) for seed in seeds}
+        cases = {int(seed): paper_case(folder, int(seed), grains) for seed in seeds}
         first = next(iter(cases))
         runs = {
             name: {code: [] for code in codes if code not in lacking}
@@ -113,7 +132,7 @@ def run(seeds=(9, 10, 11, 12, 13), grains=1000, comparisons=COMPARISONS, new_use
     return result
 
 
-def _case(folder, seed, grains):
+def paper_case(folder, seed, grains):
     """Return the case of a seed: the packing that the workflow makes of it."""
     rng = np.random.default_rng(seed)
     radii = sampled_radii(grading_of(GRADING), grains, "random", rng)

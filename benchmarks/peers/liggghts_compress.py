@@ -24,6 +24,7 @@ from common import (
 )
 
 SCRIPT = Path(__file__).resolve().with_name("in.liggghts")
+TRICKS = SCRIPT.with_name("in.liggghts_tricks")
 # The box over the space between the walls: LIGGGHTS must not drop a grain that is pressed through
 # a wall, so that it can be put back.
 MARGIN = 1.5
@@ -38,7 +39,18 @@ DEFAULTS = {
     "dashpot": 0.3,  # of a contact, over stiffness times time scale
     "drag": 0.02,  # of a grain, over stiffness times time scale
     "skin": 0.2,  # of the neighbour lists, over the largest radius
+    # Whether it knows the tricks of in.liggghts_tricks, which is between walls alone; with what
+    # follows.
+    "tricks": False,
+    "newton": "off",
+    "neighbour_every": 1,
+    "sort": 0,
+    "masses": 1,
+    "kinetic": 1,
+    "look": 10,
+    "step_tolerance": 3e-2,
 }
+_OF_TRICKS = ("newton", "neighbour_every", "sort", "masses", "kinetic", "look", "step_tolerance")
 
 
 def half_edges(packing, final_edge, path):
@@ -80,11 +92,14 @@ def main(case_path, output_path):
         "half": [repr(float(half)) for half in halves],
         "box": [repr(float(half) * (1.0 if periodic else MARGIN)) for half in halves],
     }
+    if path["tricks"]:
+        settings |= {name: path[name] for name in _OF_TRICKS} | {"bin": 2.0 * settings["skin"]}
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         box = packing._replace(edge=packing.edge * (1.0 if periodic else MARGIN))
         write_data_file(folder / "packing.data", box, stiffness / volumes(packing.radii))
-        done = run_code(["liggghts", "-in", str(SCRIPT), "-log", "none"], folder, settings)
+        script = TRICKS if path["tricks"] else SCRIPT
+        done = run_code(["liggghts", "-in", str(script), "-log", "none"], folder, settings)
         positions = read_positions(folder / "last.dump", len(packing.radii))
     last = packing._replace(positions=positions, edge=2.0 * float(halves[-1]))
     loops = re.findall(r"Loop time of (\S+) on \d+ procs for (\d+) steps", done.output)
@@ -97,7 +112,7 @@ def main(case_path, output_path):
         "seconds_total_cpu": done.cpu_seconds,
         "seconds_loop": sum(float(seconds) for seconds, _ in loops),
         # A run evaluates the forces once more when it sets up.
-        "iterations": sum(int(steps) + 1 for _, steps in loops),
+        "iterations": sum(int(steps) for _, steps in loops) + done.output.count("Setting up run"),
         "strain_steps": len(halves),
         "edge": last.edge,
         "reached": bool(at_end and state["unbalanced_force_ratio"] <= case["state_tolerance"]),

@@ -28,11 +28,13 @@ import yade.config
 from yade import (
     Bo1_Box_Aabb,
     Bo1_Sphere_Aabb,
+    Bo1_Wall_Aabb,
     ForceResetter,
     FrictMat,
     GlobalStiffnessTimeStepper,
     Ig2_Box_Sphere_ScGeom,
     Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
     Ip2_FrictMat_FrictMat_FrictPhys,
@@ -69,6 +71,10 @@ PATH = {
     # iterations a grain should use it up.
     "verlet": 0.3,
     "target_interval": -1,
+    # Tricks: walls as `box` or, cheaper to meet, as `plane`, which a fine grain can be pressed
+    # through, so that it has to be put back; grains that nothing turns, kept from turning.
+    "walls": "box",
+    "turning": True,
 }
 # Half the thickness of a wall over the edge: as a box, and not a plane, it pushes a fine grain
 # back from whatever depth.
@@ -86,9 +92,8 @@ def main(case_file, output_file):
         raise SystemExit(f"no such settings of the path: {sorted(unknown)}")
     path = {**PATH, **case.get("path", {})}
     positions, radii = read_packing(Path(case_file).parent / case["packing"])
-    packing = Packing(
-        positions, radii, case["edge"], case["boundary"] == "periodic", case["normal_stiffness"]
-    )
+    periodic = case["boundary"] == "periodic"
+    packing = Packing(positions, radii, case["edge"], periodic, case["normal_stiffness"], path)
     packing.engines(path)
     prepared = time.perf_counter(), time.process_time()
 
@@ -141,9 +146,9 @@ def read_packing(path):
 
 
 class Packing:
-    """Spheres in a cube about the origin, between six boxes as walls or periodic."""
+    """Spheres in a cube about the origin, between six walls or periodic."""
 
-    def __init__(self, positions, radii, edge, periodic, stiffness):
+    def __init__(self, positions, radii, edge, periodic, stiffness, path):
         self.edge, self.periodic = edge, periodic
         self.radii, self.stiffness = radii, stiffness
         material = omega.materials.append(FrictMat(frictionAngle=0.0))
@@ -157,14 +162,21 @@ class Packing:
         ]
         omega.bodies.append(self.spheres)
         self.states = [sphere.state for sphere in self.spheres]
+        if not path["turning"]:
+            for state in self.states:
+                state.blockedDOFs = "XYZ"
         self.walls = []
-        self.half = WALL * edge
+        self.planes = path["walls"] == "plane"
+        self.half = 0.0 if self.planes else WALL * edge
         for axis in range(0 if periodic else 3):
             for side in (-1, 1):
                 extents, centre = [edge] * 3, [0.0] * 3
                 extents[axis] = self.half
                 centre[axis] = side * (edge / 2.0 + self.half)
-                wall = utils.box(centre, extents, fixed=True, material=material)
+                if self.planes:
+                    wall = utils.wall(centre[axis], axis, sense=-side, material=material)
+                else:
+                    wall = utils.box(centre, extents, fixed=True, material=material)
                 omega.bodies.append(wall)
                 self.walls.append((wall.state, axis, side))
 
@@ -183,7 +195,7 @@ class Packing:
             young = 3.0 * stiffness / (4.0 * math.pi * radius * path["loose_time_step"] ** 2)
             body.material = FrictMat(young=young, frictionAngle=0.0)
         self.collider = InsertionSortCollider(
-            [Bo1_Sphere_Aabb(), Bo1_Box_Aabb()],
+            [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb() if self.planes else Bo1_Box_Aabb()],
             verletDist=path["verlet"] * float(np.mean(self.radii)),
             targetInterv=path["target_interval"],
             allowBiggerThanPeriod=True,
@@ -194,7 +206,7 @@ class Packing:
             [
                 # What keeps tangential forces exact is not needed where there are none.
                 Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False),
-                Ig2_Box_Sphere_ScGeom(),
+                Ig2_Wall_Sphere_ScGeom() if self.planes else Ig2_Box_Sphere_ScGeom(),
             ],
             [
                 Ip2_FrictMat_FrictMat_FrictPhys(
@@ -229,6 +241,8 @@ class Packing:
             omega.cell.hSize = omega.cell.hSize * factor
         for state in self.states:
             state.pos = state.pos * factor
+        if self.planes:
+            self._put_back()
         for wall, axis, side in self.walls:
             # The box keeps its thickness: its face has to be where the wall is.
             place = [0.0] * 3
@@ -238,6 +252,13 @@ class Packing:
         # The collider asks NewtonIntegrator how far it moved the grains, which knows nothing of
         # this: zero makes it look anew.
         self.newton.maxVelocitySq = 0.0
+
+    def _put_back(self):
+        """Put grains whose centre is behind a plane in front of it."""
+        most = 0.49999 * self.edge
+        for state in self.states:
+            if max(map(abs, state.pos)) > most:
+                state.pos = [min(max(x, -most), most) for x in state.pos]
 
     def positions(self):
         """Return the centres [m], for a periodic cell those of the grain inside it."""
