@@ -123,7 +123,7 @@ $(VENV)/.packages: requirements.lock | own-environment
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "error: $(PYTHON) is %d.%d, and 3.11 or newer is needed; name one: make PYTHON=python3.13" % sys.version_info[:2])'
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null \
 	  || { echo "error: $(PYTHON) has no venv module; on Debian and Ubuntu: apt-get install python3-venv" >&2; exit 1; }
-	@echo "Making the environment in $(VENV): a quarter of a minute on a fast network, 1 GB"
+	@echo "Making the environment in $(VENV): ten seconds on a fast network, 1 GB"
 	@$(PYTHON) -m venv --clear --without-pip $(VENV)
 	@for name in uv setuptools; do \
 	  awk "/^[^ #]/ {keep = /^$$name==/} keep" requirements.lock > $(VENV)/$$name.txt; done
