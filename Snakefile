@@ -39,6 +39,13 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/preview.smk"
 
 
+onstart:
+    # Without a limit on jobs begun each second, which for each job that ends looks for another one
+    # each second from then on.
+    if workflow.local_exec:
+        workflow.scheduler.job_rate_limiter = None
+
+
 rule all:
     default_target: True
     input:

@@ -7,6 +7,4 @@ The package holds the science; the Snakefile beside it holds the study.
 2
 """
 
-from importlib.metadata import version
-
-__version__ = version("branchcrush")
+__version__ = "0.1.0"

@@ -1,6 +1,7 @@
 """Which source files of this package a script or a module is made of, for the workflow to watch."""
 
 import ast
+import hashlib
 from functools import cache
 from os import PathLike
 from pathlib import Path
@@ -29,7 +30,7 @@ def imported_modules(path: str | PathLike[str]) -> frozenset[str]:
     ['errors', 'packings.cell_grid', 'packings.geometry']
     """
     modules = set()
-    for node in ast.walk(ast.parse(Path(path).read_text(encoding="utf-8"))):
+    for node in _statements(ast.parse(Path(path).read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             modules |= {_module(alias.name) for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -65,6 +66,44 @@ def source_files(path: str | PathLike[str]) -> list[str]:
             seen.add(module)
             pending += imported_modules(_file(module))
     return sorted(str(_file(module)) for module in seen)
+
+
+def source_digest(path: str | PathLike[str]) -> str:
+    """Return a text that changes with the files of this package that a Python file imports.
+
+    Parameters
+    ----------
+    path : path-like
+        As for `source_files`.
+
+    Returns
+    -------
+    str
+        SHA-256 of the names and the contents of the files.
+
+    Examples
+    --------
+    >>> len(source_digest(Path(__file__).with_name("packings") / "placement.py"))
+    64
+    """
+    digest = hashlib.sha256()
+    for file in map(Path, source_files(path)):
+        digest.update(f"{file.relative_to(_PACKAGE)} {_digest(file)}\n".encode())
+    return digest.hexdigest()
+
+
+@cache
+def _digest(file):
+    """Return the SHA-256 of a file."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _statements(block):
+    """Yield the statements in a node of the tree, at any depth, without what they compute."""
+    for node in ast.iter_child_nodes(block):
+        if isinstance(node, ast.stmt | ast.excepthandler | ast.match_case):
+            yield node
+            yield from _statements(node)
 
 
 def _module(name):

@@ -5,6 +5,7 @@ pyproject.toml. Here is what those cannot see.
 """
 
 import ast
+import hashlib
 import json
 import re
 import subprocess
@@ -14,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import branchcrush
-from branchcrush.source_files import imported_modules, source_files
+from branchcrush.source_files import imported_modules, source_digest, source_files
 
 PACKAGE = Path(branchcrush.__file__).parent
 REPOSITORY = Path(__file__).parents[2]
@@ -58,6 +59,8 @@ def closure(modules):
         ("from branchcrush import jobs", {"jobs"}),
         ("import branchcrush.files.tables, json", {"files.tables"}),
         ("def late():\n    from branchcrush.errors import FitError", {"errors"}),
+        ("try:\n    pass\nexcept OSError:\n    import branchcrush.jobs", {"jobs"}),
+        ("match 1:\n    case 1:\n        if True:\n            import branchcrush.jobs", {"jobs"}),
         # Modules of Python and others, some of the same names.
         ("import statistics\nfrom files import tables\nimport errors", set()),
         ("import branchcrush", set()),
@@ -81,6 +84,13 @@ def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_pa
         "packings/placement.py",
     ]
     assert source_files(file_of("errors")) == []
+
+
+def test_a_digest_is_that_of_the_names_and_contents_of_the_files(tmp_path):
+    (tmp_path / "script.py").write_text("from branchcrush.errors import FitError\n")
+    content = hashlib.sha256(file_of("errors").read_bytes()).hexdigest()
+    expected = hashlib.sha256(f"errors.py {content}\n".encode()).hexdigest()
+    assert source_digest(tmp_path / "script.py") == expected
 
 
 # --- what Python loads ---------------------------------------------------------------------------

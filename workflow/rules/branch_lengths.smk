@@ -11,7 +11,6 @@ rule branch_lengths:
         certificate="results/{sample}/certificate.csv",
         jamming="results/{sample}/jamming.csv",
         data=data_files,
-        code=code("branch_lengths"),
     output:
         table="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
@@ -25,6 +24,7 @@ rule branch_lengths:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("branch_lengths"),
         sample=section("grading"),
         bins=SETTINGS.energy_split.bins,
         intervals=INTERVALS,

@@ -6,7 +6,6 @@ rule certificate:
         packings=of_all_seeds("packing.npz"),
         paths=of_all_seeds("path.csv"),
         steps=of_all_seeds("steps.csv"),
-        code=code("certificate"),
     output:
         states="results/{sample}/certificate.csv",
         jamming="results/{sample}/jamming.csv",
@@ -17,6 +16,7 @@ rule certificate:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("certificate"),
         sample=section("contact", "seeds"),
     script:
         "../scripts/certificate.py"
@@ -40,7 +40,6 @@ rule verdict:
         refined_paths=of_refined_seeds("path.csv", refined=True),
         refined_contacts=of_refined_seeds("contacts.parquet", refined=True),
         data=data_files,
-        code=code("verdict"),
     output:
         convergence="results/{sample}/convergence.csv",
         certificate="results/{sample}/certificate.json",
@@ -51,6 +50,7 @@ rule verdict:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("verdict"),
         sample=section("grading", "seeds", "refined_seeds", "quality", "strain_step"),
         bins=SETTINGS.energy_split.bins,
     script:

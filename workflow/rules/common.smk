@@ -2,7 +2,7 @@
 
 from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
-from branchcrush.source_files import source_files
+from branchcrush.source_files import source_digest
 
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}
 # The first seeds again with twice the strain steps, for the certificate's convergence.
@@ -55,5 +55,6 @@ def of_refined_seeds(file, refined):
 
 
 def code(script):
-    """Return the modules that a script runs: an edit of one reruns the jobs that depend on it."""
-    return source_files(workflow.source_path(f"../scripts/{script}.py"))
+    """Return what stands for the modules a script runs: an edit of one reruns the jobs."""
+    # One text, where each module as an input would be looked at and recorded with every output.
+    return source_digest(workflow.source_path(f"../scripts/{script}.py"))

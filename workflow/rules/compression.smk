@@ -27,7 +27,6 @@ rule compression:
                 "mod.walls",
             )
         ],
-        code=code("compression"),
     output:
         packing="results/{sample}/seed_{seed}/packing.npz",
         data="results/{sample}/seed_{seed}/packing.data",
@@ -47,6 +46,7 @@ rule compression:
     # is certified does not depend on them.
     threads: lambda wildcards: sample_of(wildcards)["ranks"]
     params:
+        code=code("compression"),
         sample=section(
             "grading",
             "sampling",

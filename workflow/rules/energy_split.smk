@@ -8,7 +8,6 @@ rule energy_split:
         certificate="results/{sample}/certificate.csv",
         jamming="results/{sample}/jamming.csv",
         data=data_files,
-        code=code("energy_split"),
     output:
         table="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",
@@ -20,6 +19,7 @@ rule energy_split:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("energy_split"),
         sample=section("grading", "seeds"),
         energy_split=SETTINGS.energy_split.model_dump(),
     script:

@@ -5,7 +5,6 @@ rule grading:
     input:
         packings=of_all_seeds("packing.npz"),
         data=data_files,
-        code=code("grading"),
     output:
         table="results/{sample}/grading.csv",
         summary="results/{sample}/grading.json",
@@ -14,6 +13,7 @@ rule grading:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("grading"),
         sample=section(
             "grading",
             "sampling",

@@ -5,13 +5,13 @@ rule preview:
     input:
         inputs=rules.compression.input.inputs,
         data=[file for s in SAMPLES.values() for file in grading_data_files(s["grading"])],
-        code=code("preview"),
     log:
         "logs/preview.log",
     localrule: True
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("preview"),
         # No output of the workflow, nor a benchmark, which is one: a preview is made anew each
         # time it is asked for.
         text="results/preview.txt",

@@ -39,7 +39,6 @@ rule packing_figures:
         paths=of_all_seeds("path.csv"),
         packings=of_all_seeds("packing.npz"),
         particles=of_all_seeds("particles.dump.gz"),
-        code=code("packing_figures"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
     log:
@@ -47,6 +46,7 @@ rule packing_figures:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("packing_figures"),
         sample=section("grading"),
         dpi=SETTINGS.figures.dpi,
     script:
@@ -63,7 +63,6 @@ rule fit_figures:
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
         data=data_files,
-        code=code("fit_figures"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
     log:
@@ -71,6 +70,7 @@ rule fit_figures:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("fit_figures"),
         sample=section("grading"),
         dpi=SETTINGS.figures.dpi,
     script:
@@ -83,7 +83,6 @@ rule network_figures:
         numbers="results/{sample}/contact_numbers.json",
         shared="results/{sample}/sharing.json",
         data=data_files,
-        code=code("network_figures"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in NETWORK_FIGURES},
     log:
@@ -91,6 +90,7 @@ rule network_figures:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("network_figures"),
         sample=section("grading"),
         tables=NETWORK_TABLES,
         dpi=SETTINGS.figures.dpi,
@@ -103,7 +103,6 @@ rule comparison:
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
-        code=code("comparison"),
     output:
         "results/comparison.csv",
     log:
@@ -111,6 +110,7 @@ rule comparison:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("comparison"),
         samples=SAMPLES,
     script:
         "../scripts/comparison.py"
@@ -128,7 +128,6 @@ rule report:
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
-        code=code("report"),
     output:
         "results/report.html",
     log:
@@ -136,6 +135,7 @@ rule report:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("report"),
         samples=SAMPLES,
         figures=FIGURES,
     script:
@@ -149,7 +149,6 @@ rule findings:
         states=expand("results/{sample}/coordination.csv", sample=SAMPLES),
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
-        code=code("findings"),
     output:
         rows="results/findings.csv",
         exponents="results/exponents.csv",
@@ -159,6 +158,7 @@ rule findings:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("findings"),
         samples=SAMPLES,
         intervals=INTERVALS,
     script:
@@ -175,7 +175,6 @@ rule findings_page:
         branches=expand("results/{sample}/shielding_branches.csv", sample=SAMPLES),
         stress=expand("results/{sample}/stress_sharing.csv", sample=SAMPLES),
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
-        code=code("findings_page"),
     output:
         **{name: f"results/figures/findings/{name}.png" for name in FINDINGS},
         page="results/findings.html",
@@ -184,6 +183,7 @@ rule findings_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("findings_page"),
         samples=SAMPLES,
         figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,

@@ -9,7 +9,6 @@ rule sharing:
         walls=of_all_seeds("wall_contacts.parquet"),
         certificate="results/{sample}/certificate.csv",
         data=data_files,
-        code=code("sharing"),
     output:
         shielding_branches="results/{sample}/shielding_branches.csv",
         shielding_grains="results/{sample}/shielding_grains.csv",
@@ -24,6 +23,7 @@ rule sharing:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("sharing"),
         sample=section("grading", "contact"),
         bins=SETTINGS.energy_split.bins,
         intervals=INTERVALS,

@@ -7,7 +7,6 @@ rule thermodynamics:
         fit="results/{sample}/energy_split.json",
         certificate="results/{sample}/certificate.csv",
         data=data_files,
-        code=code("thermodynamics"),
     output:
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
@@ -18,6 +17,7 @@ rule thermodynamics:
     conda:
         "../envs/branchcrush.yaml"
     params:
+        code=code("thermodynamics"),
         sample=section("grading"),
         thermodynamics=SETTINGS.thermodynamics.model_dump(),
     script:
