@@ -23,6 +23,7 @@ PARTS = (
     "growth",
     "mpi",
     "overhead",
+    "pages",
     "analysis",
     "neighbours",
     "paths",
