@@ -24,8 +24,6 @@ SIZE = (3.5, 2.7)
 LEAST_SPREAD = 0.05
 
 _STYLE = {
-    # The one that is always there: of the usual list of fonts each is looked up for every word.
-    "font.family": "DejaVu Sans",
     "font.size": 8,
     "axes.labelsize": 8,
     "axes.titlesize": 8,
