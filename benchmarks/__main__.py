@@ -24,6 +24,7 @@ PARTS = (
     "growth",
     "mpi",
     "overhead",
+    "pages",
     "analysis",
     "neighbours",
     "paths",

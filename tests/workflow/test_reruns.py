@@ -5,9 +5,9 @@ import os
 import pytest
 
 PAGE = {"findings_page"}
-FIGURES = {"packing_figures", "fit_figures", "network_figures", "report"} | PAGE
-MODEL = {"thermodynamics", "comparison", "packing_figures", "fit_figures", "report"}
-NETWORKS = {"branch_lengths", "sharing", "network_figures", "findings"} | PAGE
+FIGURES = {"packing_figures", "fit_figures", "report"} | PAGE
+MODEL = {"thermodynamics", "comparison", "fit_figures", "report"}
+NETWORKS = {"branch_lengths", "sharing", "packing_figures", "findings"} | PAGE
 SPLIT = {"energy_split", "verdict"} | MODEL | NETWORKS
 PACKING = {"compression", "grading", "certificate"} | SPLIT
 
@@ -47,13 +47,13 @@ def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules)
     ("file", "rules"),
     [
         ("src/branchcrush/plotting/energy.py", {"fit_figures", "report"}),
-        ("src/branchcrush/plotting/shielding.py", {"network_figures", "report"}),
+        ("src/branchcrush/plotting/shielding.py", {"packing_figures", "report"}),
         ("src/branchcrush/study/findings.py", {"findings"} | PAGE),
         (
             "src/branchcrush/energy/shielding_grains.py",
-            {"sharing", "network_figures", "report", "findings"} | PAGE,
+            {"sharing", "packing_figures", "report", "findings"} | PAGE,
         ),
-        ("src/branchcrush/plotting/loading.py", {"packing_figures", "report"}),
+        ("src/branchcrush/plotting/loading.py", {"fit_figures", "report"}),
         ("src/branchcrush/crushing/law.py", MODEL),
         ("src/branchcrush/loading/measures.py", PACKING),
         ("src/branchcrush/packings/placement.py", PACKING),

@@ -1,16 +1,18 @@
 # Report: results of every sample -> figures, one table of all samples, and the page to open.
 
-# Of the packings, and of what is fitted to them.
-PACKING_FIGURES = ["fig3_grading", "fig4_packing", "loading_path", "certificate"]
+# As measured, and what is fitted: only the second show the crushing model. Halves of about equal
+# work, so that both cores draw those of one sample, and no more jobs, since each loads the plotting
+# library once more.
+PACKING_FIGURES = ["fig3_grading", "fig4_packing", "certificate", "who_touches_whom", "sharing"]
 FIT_FIGURES = [
     "fig5_energy_split",
     "fig6_cubic",
     "fig7_branch_lengths",
     "exponent_path",
     "predictors",
+    "loading_path",
     "crushing_model",
 ]
-NETWORK_FIGURES = ["who_touches_whom", "sharing"]
 NETWORK_TABLES = [
     "contact_numbers",
     "contact_pairs",
@@ -23,22 +25,29 @@ NETWORK_TABLES = [
     "stress_by_radius",
     "stress_sharing",
 ]
-FIGURES = PACKING_FIGURES + FIT_FIGURES + NETWORK_FIGURES
+FIGURES = PACKING_FIGURES + FIT_FIGURES
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
 
 
+def of_first_seed(file):
+    """Return an input function for a file of the one seed whose packing is drawn."""
+    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
+
+
 rule packing_figures:
     input:
+        **{name: f"results/{{sample}}/{name}.csv" for name in NETWORK_TABLES},
+        numbers="results/{sample}/contact_numbers.json",
+        shared="results/{sample}/sharing.json",
         grading="results/{sample}/grading.csv",
-        summary="results/{sample}/thermodynamics.json",
         states="results/{sample}/certificate.csv",
         certificate="results/{sample}/certificate.json",
         jamming="results/{sample}/jamming.csv",
         data=data_files,
-        paths=of_all_seeds("path.csv"),
-        packings=of_all_seeds("packing.npz"),
-        particles=of_all_seeds("particles.dump.gz"),
+        path=of_first_seed("path.csv"),
+        packing=of_first_seed("packing.npz"),
+        particles=of_first_seed("particles.dump.gz"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
     log:
@@ -48,6 +57,7 @@ rule packing_figures:
     params:
         code=code("packing_figures"),
         sample=section("grading"),
+        tables=NETWORK_TABLES,
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/packing_figures.py"
@@ -62,6 +72,7 @@ rule fit_figures:
         statistics="results/{sample}/branch_lengths.json",
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
+        paths=of_all_seeds("path.csv"),
         data=data_files,
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
@@ -75,27 +86,6 @@ rule fit_figures:
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/fit_figures.py"
-
-
-rule network_figures:
-    input:
-        **{name: f"results/{{sample}}/{name}.csv" for name in NETWORK_TABLES},
-        numbers="results/{sample}/contact_numbers.json",
-        shared="results/{sample}/sharing.json",
-        data=data_files,
-    output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in NETWORK_FIGURES},
-    log:
-        "logs/{sample}/network_figures.log",
-    conda:
-        "../envs/branchcrush.yaml"
-    params:
-        code=code("network_figures"),
-        sample=section("grading"),
-        tables=NETWORK_TABLES,
-        dpi=SETTINGS.figures.dpi,
-    script:
-        "../scripts/network_figures.py"
 
 
 rule comparison:

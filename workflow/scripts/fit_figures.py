@@ -1,16 +1,18 @@
-"""Draw what is fitted to a sample: the energy split, branch lengths, and the crushing model."""
+"""Draw what is fitted to a sample: energy split, branch lengths, elastic law, crushing model."""
 
 from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.jobs import job
 from branchcrush.plotting import fit_figures as figures
+from branchcrush.samples.ensemble import stacked
 
 with job(snakemake.log[0]):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
     split, fit = read_table(files.split), EnergySplitFit.read(read_json(files.fit))
     lengths, statistics = read_table(files.lengths), read_json(files.statistics)
     curves, model = read_table(files.curves), read_json(files.summary)
+    paths = stacked([read_table(path) for path in files.paths])
     _, largest = grading_of(snakemake.params.sample["grading"]).support()
 
     figures.draw_energy_split(output.fig5_energy_split, dpi, split, fit)
@@ -18,4 +20,5 @@ with job(snakemake.log[0]):
     figures.draw_branch_lengths(output.fig7_branch_lengths, dpi, lengths, statistics, largest)
     figures.draw_exponent_path(output.exponent_path, dpi, read_table(files.split_path), fit)
     figures.draw_predictors(output.predictors, dpi, fit)
+    figures.draw_loading_path(output.loading_path, dpi, paths, model)
     figures.draw_crushing_model(output.crushing_model, dpi, curves, model)

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
-from branchcrush.plotting import branches, crushing, energy, predictors
+from branchcrush.plotting import branches, crushing, energy, loading, predictors
 from branchcrush.plotting.style import drawn, figure, grid
 
 Path = str | os.PathLike
@@ -131,6 +131,31 @@ def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit) -> Figure:
         drawn(predictors.plot_predictors, fit.reason, fit, ax=panels[0])
         drawn(predictors.plot_slopes, fit.reason, fit, ax=panels[1])
     return panels[0].figure
+
+
+def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Figure:
+    """Draw stress, energies, coordination and elastic law along the loading, and return it.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    states : DataFrame
+        `path.csv` of all seeds, from `samples.ensemble.stacked`.
+    model : dict
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi, *grid(2, 2)) as panels:
+        loading.plot_mean_stress(states, ax=panels[0, 0])
+        loading.plot_energy_balance(states, ax=panels[0, 1])
+        loading.plot_coordination(states, ax=panels[1, 0])
+        drawn(loading.plot_elastic_law, model.get("reason"), states, model, ax=panels[1, 1])
+    return panels[0, 0].figure
 
 
 def draw_crushing_model(path: Path, dpi: int, curves: Table, model: Mapping) -> Figure:

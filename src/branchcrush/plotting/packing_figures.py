@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from branchcrush.files.tables import Table
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
-from branchcrush.plotting import certificate, gradings, loading
+from branchcrush.plotting import certificate, gradings
 from branchcrush.plotting.packings import plot_packing
-from branchcrush.plotting.style import drawn, figure, grid
+from branchcrush.plotting.style import figure, grid
 from branchcrush.samples.ensemble import end_of_loading
 
 Path = str | os.PathLike
@@ -77,31 +77,6 @@ def draw_packing(
         before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
         after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")
     return before.figure
-
-
-def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Figure:
-    """Draw stress, energies, coordination and elastic law along the loading, and return it.
-
-    Parameters
-    ----------
-    path : path-like
-        A PNG file.
-    dpi : int
-    states : DataFrame
-        `path.csv` of all seeds, from `samples.ensemble.stacked`.
-    model : dict
-        `thermodynamics.json`.
-
-    Returns
-    -------
-    Figure
-    """
-    with figure(path, dpi, *grid(2, 2)) as panels:
-        loading.plot_mean_stress(states, ax=panels[0, 0])
-        loading.plot_energy_balance(states, ax=panels[0, 1])
-        loading.plot_coordination(states, ax=panels[1, 0])
-        drawn(loading.plot_elastic_law, model.get("reason"), states, model, ax=panels[1, 1])
-    return panels[0, 0].figure
 
 
 def draw_certificate(

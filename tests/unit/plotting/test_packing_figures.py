@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from branchcrush.plotting import certificate, loading, packing_figures
+from branchcrush.plotting import certificate, packing_figures
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -39,18 +39,3 @@ def test_every_panel_of_the_certificate_has_its_table(drawn, given):
         "plot_dissipation": ("states",),
         "plot_jamming": ("jamming",),
     }
-
-
-def test_every_panel_of_the_loading_path_has_its_table_and_no_law_says_why(drawn, given):
-    plots = ("plot_mean_stress", "plot_energy_balance", "plot_coordination")
-    calls = given(loading, *plots)
-    axes = drawn(packing_figures.draw_loading_path, "path", {"reason": "no elastic law"})
-    assert calls == {name: ("path",) for name in plots}
-    assert axes[3].texts[0].get_text() == "no data: no elastic law"
-
-
-def test_the_elastic_law_is_drawn_with_its_fit(drawn, given):
-    plots = ("plot_mean_stress", "plot_energy_balance", "plot_coordination", "plot_elastic_law")
-    calls = given(loading, *plots)
-    drawn(packing_figures.draw_loading_path, "path", {"theta": 0.5})
-    assert calls["plot_elastic_law"] == ("path", {"theta": 0.5})
