@@ -27,6 +27,7 @@ PARTS = (
     "neighbours",
     "paths",
     "breakdown",
+    "minimisers",
 )
 RESULTS = Path(__file__).with_name("results")
 # What is shown of a result without a `summary` of its own.
