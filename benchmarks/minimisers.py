@@ -2,7 +2,9 @@
 
 Both begin from one loaded packing and walk the same strain steps, each relaxed to a state at rest;
 each goes on from its own states. L-BFGS moves the grains in the memory of LAMMPS and asks it for
-the net forces. No energy is needed: a step is cut where the slope along it has turned.
+the net forces. No energy is needed: a step is cut where the slope along it has turned. It does not
+pay, so nothing of it is in the package: small packings take half of the evaluations, each at more
+than twice the time, and where contacts come and go as many as kinetic damping.
 """
 
 import tempfile
@@ -26,7 +28,7 @@ from branchcrush.packings.contacts import mechanical_coordination_number, rattle
 # Grading, grains, solid fraction at the beginning, boundary.
 CASES = (
     ("uniform", 1000, 0.72, "walls"),
-    ("lognormal", 2000, 0.66, "periodic"),
+    ("lognormal", 1000, 0.68, "periodic"),
     ("lognormal", 2000, 0.72, "walls"),
     ("fractal 20", 2000, 0.82, "periodic"),
 )
@@ -52,7 +54,7 @@ include {inputs}/mod.strain
 """
 
 
-def run(cases=CASES, states=3, memory=MEMORY):
+def run(cases=CASES, states=2, memory=MEMORY):
     """Return what both ways to rest take, and the states that they come to.
 
     Parameters
@@ -73,7 +75,7 @@ def run(cases=CASES, states=3, memory=MEMORY):
     result = {}
     for form, grains, solid_fraction, boundary in cases:
         with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
-            ((packing),) = apart(dense_packing, (form, grains, solid_fraction, folder, boundary))
+            (packing,) = apart(dense_packing, (form, grains, solid_fraction, folder, boundary))
         # In a process each: what one leaves in memory does not help the other.
         paths = {
             method: apart(path, (*packing, boundary, method, states, memory))[0]
@@ -137,7 +139,8 @@ def state(lammps):
     ids = lammps.numpy.extract_compute("ids", 2, 2)[:, :2].astype(int)
     grains = lammps.extract_setting("nlocal")
     names = ("wall_fx", "wall_fy", "wall_fz")
-    at_walls = np.array([lammps.numpy.extract_variable(name, "all", 1) for name in names])[:, :grains]
+    at_walls = np.array([lammps.numpy.extract_variable(name, "all", 1) for name in names])
+    at_walls = at_walls[:, :grains]
     on_wall = np.zeros(grains, dtype=int)
     on_wall[lammps.numpy.extract_atom("id")[:grains] - 1] = (at_walls != 0.0).sum(axis=0)
     i, j = ids.T - 1
