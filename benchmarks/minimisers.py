@@ -3,8 +3,8 @@
 Both begin from one loaded packing and walk the same strain steps, each relaxed to a state at rest;
 each goes on from its own states. L-BFGS moves the grains in the memory of LAMMPS and asks it for
 the net forces. No energy is needed: a step is cut where the slope along it has turned. It is not
-in the package, because it does not pay reliably: it took 0.5 to 1.3 of the evaluations, and an
-evaluation took 1.4 to 2.7 times as long.
+in the package, because it does not pay reliably: from 1000 grains it took 0.5 to 1.3 of the
+evaluations, each 1.4 to 2.7 times as long.
 """
 
 import tempfile
