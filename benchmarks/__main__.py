@@ -30,6 +30,7 @@ PARTS = (
     "paths",
     "tolerance",
     "breakdown",
+    "minimisers",
 )
 # These need settings, so `all` leaves them out.
 NEED_SETTINGS = ("before",)
