@@ -9,7 +9,7 @@ import pytest
 from branchcrush.statistics.power_law import power_law_fit
 
 # Binary fractions of a cell of edge 8, so that every edge on the way is a short decimal and
-# exact: 40 approach steps of 2^-4 to 5.5, then 24 steps of 2^-5 to 4.75.
+# exact: 20 approach steps of 2^-3 to 5.5, then 24 steps of 2^-5 to 4.75.
 EDGE, APPROACH, TARGETS, STRAIN_STEP = 8.0, 5.5, (5.125, 4.75), 6.34e-3
 BOUNDARIES = ["walls", "periodic"]
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}

@@ -20,9 +20,10 @@ STRAIN_STEP = 8e-3
 
 @pytest.fixture(scope="module", params=CASES, ids=lambda case: "-".join(map(str, case)))
 def cycle(request, random_grains, compressed, tmp_path_factory):
-    """Return a packing loaded to the stresses and unloaded to all but the least two of them."""
+    """Return a packing loaded to the stresses and unloaded to all but the least of them."""
     boundary, law, seed = request.param
-    packing = random_grains(40, seed, periodic=boundary == "periodic")
+    # Fewer between walls may come loose at a stress above the last.
+    packing = random_grains(80, seed, periodic=boundary == "periodic")
     targets = TARGETS[law]
     return compressed(
         packing,
@@ -30,10 +31,8 @@ def cycle(request, random_grains, compressed, tmp_path_factory):
         boundary=boundary,
         law=law,
         control="stress",
-        # So few grains may come loose below a hundredth of the largest.
-        targets=targets + targets[-2:1:-1],
-        # So few grains may jam at 0.5 between walls, under more than the first stress.
-        approach_edge=cube_edge(packing[1], 0.42),
+        targets=targets + targets[-2:0:-1],
+        approach_edge=cube_edge(packing[1], 0.45),
         strain_step=STRAIN_STEP,
     )
 
@@ -73,7 +72,7 @@ def test_states_come_in_the_order_of_the_path(cycle):
     loading, unloading = legs(cycle)
     assert (loading["solid_fraction"].diff().iloc[1:] > 0).all()
     assert (unloading["solid_fraction"].diff().iloc[1:] < 0).all()
-    assert path["leg"].tolist() == ["loading"] * 7 + ["unloading"] * 2
+    assert path["leg"].tolist() == ["loading"] * 7 + ["unloading"] * 3
     # Denser than random packings are loosest, looser than spheres of these radii can be.
     assert path["solid_fraction"].iloc[2:].between(0.45, 0.95).all()
 
@@ -126,8 +125,8 @@ def test_a_packing_stays_denser_than_it_was(cycle):
     # Rearrangements of loading are not undone: at one stress, and so at none.
     loading, unloading = legs(cycle)
     there, back = (leg["solid_fraction"].to_numpy() for leg in (loading, unloading))
-    assert (back[::-1] >= there[2:] - 1e-3).all()
-    assert (back[::-1] > there[2:])[:-1].any()
+    assert (back[::-1] >= there[1:] - 1e-3).all()
+    assert (back[::-1] > there[1:])[:-1].any()
     if cycle.variables["boundary"] == "periodic":
         # The steps have more states near jamming than the path.
         steps, exponent = cycle.steps, EXPONENT[cycle.variables["law"]]

@@ -16,7 +16,7 @@ STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}
 STATE_TOLERANCES = {"draft": 1.0e-6, "standard": 1.0e-6, "fine": 1.0e-7}
 # Mean net force over mean contact force [-], whatever the quality, of a strain step on the way to
 # an edge, or to a stress, which must be told from the next step's.
-STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 1.0e-2}
+STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 5.0e-3}
 # A step to an edge that does not get there in so many force evaluations goes on as it is. Close to
 # jamming most do not: the packing moves on before it has come to rest.
 STEP_FORCE_EVALUATIONS = 200
