@@ -43,6 +43,11 @@ def of_all_seeds(file):
     return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"])
 
 
+def of_first_seed(file):
+    """Return an input function for a file of the one seed whose packing is drawn."""
+    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
+
+
 def of_refined_seeds(file, refined):
     """Return an input function for a file of the seeds run twice, in one or the other run."""
 

@@ -30,11 +30,6 @@ FIGURES = PACKING_FIGURES + FIT_FIGURES
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
 
 
-def of_first_seed(file):
-    """Return an input function for a file of the one seed whose packing is drawn."""
-    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
-
-
 rule packing_figures:
     input:
         **{name: f"results/{{sample}}/{name}.csv" for name in NETWORK_TABLES},
