@@ -19,7 +19,7 @@ import numpy as np
 from branchcrush.config.build import grading_of
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
-from branchcrush.loading.targets import Loading, strain_step
+from branchcrush.loading.targets import STATE_TOLERANCES, Loading, strain_step
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
@@ -131,6 +131,7 @@ def packing(seed, folder, log, inputs=ROOT / "lammps_inputs"):
         law=contact_law("linear", normal_stiffness=1e6),
         loading=LOADING,
         strain_step=strain_step("standard"),
+        state_tolerance=STATE_TOLERANCES["standard"],
     )
     compress(positions, radii, edge, variables, inputs=inputs, folder=folder, log=log)
     done = time.perf_counter()

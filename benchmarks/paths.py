@@ -19,7 +19,12 @@ from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.compression import compress, compression_variables
 from branchcrush.loading.jamming import jamming_point
 from branchcrush.loading.states import stress_floor
-from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO, Loading, strain_step
+from branchcrush.loading.targets import (
+    STATE_TOLERANCES,
+    STEP_UNBALANCED_FORCE_RATIO,
+    Loading,
+    strain_step,
+)
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
@@ -147,7 +152,13 @@ def paper_compression(
     loading = Loading("edge_reduction", EDGE_REDUCTION, states)
     strains = strains or strain_step("standard")
     variables = compression_variables(
-        packing[1], LOOSE, boundary=boundary, law=LAW, loading=loading, strain_step=strains
+        packing[1],
+        LOOSE,
+        boundary=boundary,
+        law=LAW,
+        loading=loading,
+        strain_step=strains,
+        state_tolerance=STATE_TOLERANCES["standard"],
     )
     with tempfile.TemporaryDirectory() as scratch:
         log, inputs = Path(scratch) / "log", Path(scratch) / "inputs"

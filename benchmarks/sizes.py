@@ -125,16 +125,16 @@ def estimate(rows, growth, speed_up, grains):
     """
     largest = max(row["grains"] for row in rows)
     of_largest = [row for row in rows if row["grains"] == largest]
-    found = {"grains": grains}
+    told = {"grains": grains}
     for name in ("evaluations", "cpu_us_per_grain_and_evaluation"):
         mean = mean_and_error([row[name] for row in of_largest])["mean"]
-        found[name] = mean * (grains / largest) ** growth[name]["power"]
-    seconds = found["evaluations"] * found["cpu_us_per_grain_and_evaluation"] * 1e-6 * grains
-    found["hours_on_1_core"] = seconds / 3600.0
-    found["hours_on_8_ranks"] = found["hours_on_1_core"] / speed_up**3 if speed_up else None
+        told[name] = mean * (grains / largest) ** growth[name]["power"]
+    seconds = told["evaluations"] * told["cpu_us_per_grain_and_evaluation"] * 1e-6 * grains
+    told["hours_on_1_core"] = seconds / 3600.0
+    told["hours_on_8_ranks"] = told["hours_on_1_core"] / speed_up**3 if speed_up else None
     for name in ("peak_MB", "output_MB"):
-        found[name] = growth[name]["start"] + growth[name]["per_grain"] * grains
-    found["assumptions"] = [
+        told[name] = growth[name]["start"] + growth[name]["per_grain"] * grains
+    told["assumptions"] = [
         f"evaluations, and the time of each for a grain, go on from {largest} grains with the "
         "powers fitted over all sizes; memory and output along their straight lines",
         "each doubling of the ranks gains what the second one gained for the largest packing run "
@@ -142,4 +142,4 @@ def estimate(rows, growth, speed_up, grains):
         "memory is that of one rank and its Python; more ranks hold their ghosts beside it",
         "the state is as far above jamming, and as well at rest",
     ]
-    return found
+    return told

@@ -196,6 +196,24 @@ def test_an_error_leaves_the_results_of_an_earlier_run(compressed, tmp_path):
     assert {path.name: path.read_bytes() for path in run.folder.iterdir()} == before
 
 
+def test_a_dump_that_cannot_be_written_leaves_those_of_an_earlier_run(
+    compressed, tmp_path, monkeypatch
+):
+    run = compressed(PAIR, tmp_path / "run", **LOADING)
+    before = {path.name: path.read_bytes() for path in run.folder.iterdir()}
+
+    def full_disk(plain, packed, *_):
+        packed.write(plain.read(100))
+        # The first dump is whole, the second breaks off.
+        if "pairs" in plain.name:
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("branchcrush.lammps.files.shutil.copyfileobj", full_disk)
+    with pytest.raises(OSError, match="No space left"):
+        compressed(PAIR, tmp_path / "run", **LOADING)
+    assert {path.name: path.read_bytes() for path in run.folder.iterdir()} == before
+
+
 def test_a_path_that_stops_takes_the_place_of_an_earlier_one(compressed, stopped, tmp_path):
     before = compressed(PAIR, tmp_path / "run", **LOADING)
     sizes = {path.name: path.stat().st_size for path in before.folder.iterdir()}

@@ -1,5 +1,6 @@
 """The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
 
+import shutil
 import tempfile
 import time
 from collections.abc import Mapping
@@ -182,8 +183,12 @@ def compress(
             ranks,
         )
         tables = read_compression(scratch, variables, stopped)
-        for name in DUMPS:
-            compress_file(scratch / name, folder / f"{name}.gz")
+        # All of them whole before the first takes the place of an earlier run's.
+        packed = [f"{name}.gz" for name in DUMPS]
+        for name, target in zip(DUMPS, packed, strict=True):
+            compress_file(scratch / name, scratch / target)
+        for target in packed:
+            shutil.move(scratch / target, folder / target)
     return tables
 
 
