@@ -30,7 +30,6 @@ help: ## list the targets
 
 run: $(READY) ## the study of config.yaml: results/, its figures and the exponent
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
-	@$(BIN)/python -m branchcrush.study.summary results
 
 preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
 	@$(IN_ENVIRONMENT) snakemake --cores $(CORES) --quiet all -- preview
@@ -39,7 +38,6 @@ example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \
 	  || { echo "error: no example called '$(NAME)'; there are: $$(ls examples | tr '\n' ' ')" >&2; exit 1; }
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory examples/$(NAME)
-	@$(BIN)/python -m branchcrush.study.summary examples/$(NAME)/results
 
 # Small copies of figures for the pages that show them.
 SHRINK := $(BIN)/python -c 'import sys; from PIL import Image; i = Image.open(sys.argv[1]); i.thumbnail((1200, 1200)); i.save(sys.argv[2], optimize=True)'

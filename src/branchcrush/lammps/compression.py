@@ -178,6 +178,8 @@ def compress(
                 "inputs": links / "inputs",
                 "output_folder": links / "output",
                 "quit_on_failure": "no",
+                # For its progress lines: state 0 is as placed, state 1 the end of the approach.
+                "last_state": len(variables["targets"]) + 1,
             },
             log,
             ranks,

@@ -1,0 +1,52 @@
+"""What jobs write to the run's own output, taken line by line so that it cannot garble a table."""
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+
+
+class ProcessOutput:
+    """Lines that processes write to standard streams, handed to a function until it is closed.
+
+    Jobs inherit the streams as the operating system knows them, so those are what is replaced.
+
+    Examples
+    --------
+    >>> read, write = os.pipe()
+    >>> lines = []
+    >>> output = ProcessOutput([write], lines.append)
+    >>> os.write(write, b"one line\\nand ano"), os.write(write, b"ther")
+    (16, 4)
+    >>> output.close()
+    >>> lines
+    ['one line', 'and another']
+    """
+
+    def __init__(self, descriptors: Sequence[int], take: Callable[[str], None]) -> None:
+        self._take = take
+        self._before = [(descriptor, os.dup(descriptor)) for descriptor in descriptors]
+        self._read, write = os.pipe()
+        for descriptor in descriptors:
+            os.dup2(write, descriptor)
+        os.close(write)
+        self._thread = threading.Thread(target=self._hand_on, name="output of jobs", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Give the streams back, once all that was written is handed on."""
+        for descriptor, before in self._before:
+            os.dup2(before, descriptor)
+            os.close(before)
+        self._before = []
+        # A process that outlives its job would hold the other end open.
+        self._thread.join(timeout=1.0)
+
+    def _hand_on(self):
+        rest = b""
+        while block := os.read(self._read, 65536):
+            *lines, rest = (rest + block).replace(b"\r\n", b"\n").split(b"\n")
+            for line in lines:
+                self._take(line.decode("utf-8", "replace"))
+        if rest:
+            self._take(rest.decode("utf-8", "replace"))
+        os.close(self._read)
