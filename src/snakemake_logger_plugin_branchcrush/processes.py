@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 
 class ProcessOutput:
-    """Lines that processes write to standard streams, handed to a function until it is closed.
+    r"""Lines that processes write to standard streams, handed to a function until it is closed.
 
     Jobs inherit the streams as the operating system knows them, so those are what is replaced.
 
@@ -15,7 +15,7 @@ class ProcessOutput:
     >>> read, write = os.pipe()
     >>> lines = []
     >>> output = ProcessOutput([write], lines.append)
-    >>> os.write(write, b"one line\\nand ano"), os.write(write, b"ther")
+    >>> os.write(write, b"one line\nand ano"), os.write(write, b"ther")
     (16, 4)
     >>> output.close()
     >>> lines

@@ -1,9 +1,9 @@
 """What logs tell: how far a packing is, and why a job failed."""
 
+import os
 import re
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 
 # As `lammps_inputs/mod.step` prints it after each strain step.
 _STEP = re.compile(
@@ -76,20 +76,18 @@ def packing_progress(log: str | PathLike[str]) -> Progress | None:
     Progress or None
         None before the first strain step.
     """
-    found = None
-    for found in _STEP.finditer(_tail(log)):
-        pass
-    if found is None:
+    steps = _STEP.findall(_tail(log))
+    if not steps:
         return None
-    state, last_state, solid_fraction, stress = (word.decode() for word in found.groups())
+    state, last_state, solid_fraction, stress = (word.decode() for word in steps[-1])
     try:
         return Progress(int(state), last_state, float(solid_fraction), float(stress))
     except ValueError:
         return None
 
 
-def log_size(log: str | PathLike[str]) -> int:
-    """Return the size of a log; 0 where there is none.
+def log_mark(log: str | PathLike[str]) -> tuple[int, ...]:
+    """Return what tells a log from one that is written in its place; empty where there is none.
 
     Parameters
     ----------
@@ -97,31 +95,27 @@ def log_size(log: str | PathLike[str]) -> int:
 
     Returns
     -------
-    int
-        [bytes]
+    tuple of int
     """
     try:
-        return Path(log).stat().st_size
+        status = os.stat(log)
     except OSError:
-        return 0
+        return ()
+    return status.st_ino, status.st_mtime_ns, status.st_size
 
 
-def failure_message(log: str | PathLike[str], before: int = 0) -> str:
+def failure_message(log: str | PathLike[str]) -> str:
     """Return why the job of a log failed, as its end tells.
 
     Parameters
     ----------
     log : path-like
-    before : int
-        What the log held when the job began [bytes]; an earlier run may have left a message.
 
     Returns
     -------
     str
         The package's own message, or the last line of an error's trace; empty where neither is.
     """
-    if log_size(log) == before:
-        return ""
     text = "\n" + _tail(log).decode("utf-8", "replace").rstrip()
     # A message may take several lines, of which only the first has this before it.
     message = text[text.rfind(f"\n{_MESSAGE}") :].removeprefix(f"\n{_MESSAGE}")
@@ -136,7 +130,8 @@ def _tail(log):
     """Return the end of a file; nothing where it cannot be read."""
     try:
         with open(log, "rb") as file:
-            file.seek(max(0, log_size(log) - _TAIL))
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(0, size - _TAIL))
             return file.read()
     except OSError:
         return b""

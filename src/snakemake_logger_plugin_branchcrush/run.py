@@ -26,7 +26,7 @@ class Job:
     wildcards: Mapping[str, str]
     log: str
     begun: float  # [s]
-    log_before: int = 0  # what was in its log already [bytes]
+    log_before: tuple[int, ...] = ()  # mark of a log that an earlier run left
 
     @property
     def is_packing(self) -> bool:
@@ -223,7 +223,7 @@ class Run:
         return (waiting * one + rest) / max(1, self.at_once)
 
 
-def job_of(record: Any, now: float, log_before: int) -> Job:
+def job_of(record: Any, now: float, log_before: tuple[int, ...]) -> Job:
     """Return the job of a record of Snakemake's that tells of its beginning.
 
     Parameters
@@ -231,8 +231,7 @@ def job_of(record: Any, now: float, log_before: int) -> Job:
     record : logging.LogRecord
     now : float
         [s]
-    log_before : int
-        [bytes]
+    log_before : tuple of int
 
     Returns
     -------

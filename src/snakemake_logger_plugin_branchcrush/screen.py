@@ -17,7 +17,7 @@ from snakemake_logger_plugin_branchcrush.processes import ProcessOutput
 from snakemake_logger_plugin_branchcrush.progress import (
     Progress,
     failure_message,
-    log_size,
+    log_mark,
     packing_progress,
 )
 from snakemake_logger_plugin_branchcrush.run import (
@@ -79,6 +79,7 @@ class Screen:
         standard = sys.stdout if settings.stdout else sys.stderr
         self._descriptor = _descriptor(standard) if stream is None else None
         self._stream = _copy(standard, self._descriptor) if stream is None else stream
+        self._is_wanted = not self._quiet & {"ALL", "RULES", "PROGRESS"}
         self._is_terminal = self._stream.isatty() and os.environ.get("TERM") != "dumb"
         self._form: Any = Lines(self._stream)
         self._whole = None
@@ -86,6 +87,7 @@ class Screen:
             from snakemake.logging import ColorizingTextHandler
 
             self._whole = ColorizingTextHandler(settings.nocolor, self._stream)
+            self._is_wanted = False
         elif self._is_terminal and not settings.dryrun:
             from snakemake_logger_plugin_branchcrush.table import MovingTable
 
@@ -139,8 +141,9 @@ class Screen:
                     seconds=time.monotonic() - self._begun,
                     start_folder=self._start_folder,
                 )
+                is_error = bool(self.run.failed) and not self.is_interrupted
                 for line in lines:
-                    self._form.say(line, is_error=bool(self.run.failed))
+                    self._form.say(line, is_error=is_error)
             if self._descriptor is not None:
                 self._stream.close()
 
@@ -164,7 +167,7 @@ class Screen:
 
     def _began(self, record):
         """Take a job that begins, or that would in a dry run."""
-        before = log_size(record.log[0]) if record.log else 0
+        before = log_mark(record.log[0]) if record.log else ()
         job = job_of(record, time.monotonic(), before)
         if self._settings.dryrun:
             if not is_rule(job.rule, "all"):
@@ -174,8 +177,7 @@ class Screen:
                 self._say(f"rule {job.rule}: {of + '; ' if of else ''}{reason}")
             return
         self.run.begin(job)
-        if self._is_terminal and self._whole is None and not self._quiet:
-            self._show(time.monotonic())
+        self._show(time.monotonic())
 
     def _finished(self, record):
         """Say that a job has ended."""
@@ -184,6 +186,7 @@ class Screen:
         if job is None or is_rule(job.rule, "all"):
             return
         self._progress.pop(job.number, None)
+        self._show(now)
         if not job.is_packing:
             self._say(f"{job} done ({self.run.steps_done} of {self.run.steps} steps)", timed=True)
             return
@@ -201,15 +204,17 @@ class Screen:
         job = self.run.running.get(number)
         if job is None:
             # Its beginning was not told (--quiet), or it has failed before and was started again.
-            job = job_of(record, time.monotonic(), -1)
+            job = job_of(record, time.monotonic(), ())
             if any(failed.number == number for failed, _ in self.run.failed):
                 return
             self.run.begin(job)
         self.is_interrupted |= "SIGINT" in self._ended
-        reason = failure_message(job.log, job.log_before) or self._ended or "it left no message"
+        message = failure_message(job.log) if log_mark(job.log) != job.log_before else ""
+        reason = message or self._ended or "it left no message"
         self._ended = ""
         self.run.fail(number, reason)
         self._progress.pop(number, None)
+        self._show(time.monotonic())
         if not self.is_interrupted:
             log = f" (log: {seen_from(self._start_folder, job.log)})" if job.log else ""
             self._say(f"FAILED {job}: {reason}{log}", is_error=True, timed=True, always=True)
@@ -258,23 +263,22 @@ class Screen:
 
     def _say(self, text, is_error=False, timed=False, always=False):
         """Show a text; where only little is wanted, those that always are."""
-        if self._whole is None and (always or not self._quiet & {"ALL", "RULES", "PROGRESS"}):
+        if self._is_wanted or (always and self._whole is None):
             self._form.say(text, is_error=is_error, timed=timed)
 
     def _watch(self):
         """Show the run anew from time to time."""
         while not self._stop.wait(self._form.interval):
-            now = time.monotonic()
             with self._lock:
-                wanted = self._whole is None and not self._quiet & {"ALL", "RULES", "PROGRESS"}
-                if wanted and not self._stop.is_set() and self._form.wants(now):
-                    self._show(now)
+                self._show(time.monotonic())
 
     def _show(self, now):
-        """Look where the packings are, and show the run."""
+        """Look where the packings are, and show the run, where that is wanted now."""
+        if self._stop.is_set() or not self._is_wanted or not self._form.wants(now):
+            return
         for job in self.run.running_packings:
             # A block of the log may hold no strain step: what was known is kept.
-            known = packing_progress(job.log) if log_size(job.log) != job.log_before else None
+            known = packing_progress(job.log) if log_mark(job.log) != job.log_before else None
             self._progress[job.number] = known or self._progress.get(job.number)
         self._form.show(self.run, self._progress, now)
 
@@ -282,7 +286,7 @@ class Screen:
 class _Formatter:
     """Makes Snakemake's own text of a record."""
 
-    def __init__(self, whole):
+    def __init__(self, whole) -> None:
         self.format = whole
 
 
