@@ -8,6 +8,7 @@ from snakemake_logger_plugin_branchcrush.run import Run, duration_text
 # Of jobs whose end makes the verdict of the run's own, from which the summary is read.
 _TELLING = ("all", "comparison")
 _NAMED = 5
+_GOES_ON = "The same command goes on from there; what is finished stays."
 
 
 def closing_lines(
@@ -49,10 +50,7 @@ def closing_lines(
     return lines
 
 
-_GOES_ON = "The same command goes on from there; what is finished stays."
-
-
-def _summary(results, start_folder):
+def _summary(results: Path, start_folder: str) -> list[str]:
     """Return the lines of the results, which are read in no other place."""
     from branchcrush.study.summary import summary
 
@@ -62,7 +60,7 @@ def _summary(results, start_folder):
         return [f"{seen_from(start_folder, results)}: no summary ({type(error).__name__}: {error})"]
 
 
-def _failures(run, start_folder):
+def _failures(run: Run, start_folder: str) -> list[str]:
     """Return which jobs failed, where their logs are, and what to do."""
     lines = [f"{'One job' if len(run.failed) == 1 else f'{len(run.failed)} jobs'} failed:"]
     for job, reason in run.failed[:_NAMED]:
@@ -73,7 +71,7 @@ def _failures(run, start_folder):
     return [*lines, f"Before that: {_done(run)}. Once the cause is mended: {_GOES_ON.lower()}"]
 
 
-def _done(run):
+def _done(run: Run) -> str:
     """Return how many jobs have ended well, in words."""
     words = [f"{run.packings_done} of {run.packings} packings"] if run.packings else []
     if run.steps:

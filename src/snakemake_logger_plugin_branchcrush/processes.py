@@ -3,6 +3,7 @@
 import os
 import threading
 from collections.abc import Callable, Sequence
+from typing import Any, TextIO
 
 
 class ProcessOutput:
@@ -41,7 +42,7 @@ class ProcessOutput:
         # A process that outlives its job would hold the other end open.
         self._thread.join(timeout=1.0)
 
-    def _hand_on(self):
+    def _hand_on(self) -> None:
         rest = b""
         while block := os.read(self._read, 65536):
             *lines, rest = (rest + block).replace(b"\r\n", b"\n").split(b"\n")
@@ -50,3 +51,55 @@ class ProcessOutput:
         if rest:
             self._take(rest.decode("utf-8", "replace"))
         os.close(self._read)
+
+
+def descriptor_of(stream: Any) -> int | None:
+    """Return the number by which the operating system knows a stream; None where it has none.
+
+    Parameters
+    ----------
+    stream : file-like
+
+    Returns
+    -------
+    int or None
+    """
+    try:
+        return stream.fileno()  # type: ignore[no-any-return]
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def copy_of(stream: TextIO, descriptor: int | None) -> TextIO:
+    """Return a stream to the same place, which stays when what jobs write is taken.
+
+    Parameters
+    ----------
+    stream : TextIO
+    descriptor : int or None
+        Its number; without one the stream itself is returned.
+
+    Returns
+    -------
+    TextIO
+    """
+    if descriptor is None:
+        return stream
+    return open(os.dup(descriptor), "w", encoding=stream.encoding, errors="replace")
+
+
+def is_terminal(descriptor: int) -> bool:
+    """Return whether a number is that of a terminal.
+
+    Parameters
+    ----------
+    descriptor : int
+
+    Returns
+    -------
+    bool
+    """
+    try:
+        return os.isatty(descriptor)
+    except OSError:
+        return False

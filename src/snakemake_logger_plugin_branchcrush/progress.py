@@ -126,7 +126,7 @@ def failure_message(log: str | PathLike[str]) -> str:
     return last if re.match(r"[A-Za-z_.]+(Error|Exception|Interrupt|Exit)\b", last) else ""
 
 
-def _tail(log):
+def _tail(log: str | PathLike[str]) -> bytes:
     """Return the end of a file; nothing where it cannot be read."""
     try:
         with open(log, "rb") as file:

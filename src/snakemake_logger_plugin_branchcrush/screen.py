@@ -13,7 +13,12 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from snakemake_logger_plugin_branchcrush.closing import closing_lines, seen_from
 from snakemake_logger_plugin_branchcrush.lines import Lines
-from snakemake_logger_plugin_branchcrush.processes import ProcessOutput
+from snakemake_logger_plugin_branchcrush.processes import (
+    ProcessOutput,
+    copy_of,
+    descriptor_of,
+    is_terminal,
+)
 from snakemake_logger_plugin_branchcrush.progress import (
     Progress,
     failure_message,
@@ -77,12 +82,12 @@ class Screen:
         self._output: ProcessOutput | None = None
         self._stop = threading.Event()
         standard = sys.stdout if settings.stdout else sys.stderr
-        self._descriptor = _descriptor(standard) if stream is None else None
-        self._stream = _copy(standard, self._descriptor) if stream is None else stream
+        self._descriptor = descriptor_of(standard) if stream is None else None
+        self._stream = copy_of(standard, self._descriptor) if stream is None else stream
         self._is_wanted = not self._quiet & {"ALL", "RULES", "PROGRESS"}
         self._is_terminal = self._stream.isatty() and os.environ.get("TERM") != "dumb"
         self._form: Any = Lines(self._stream)
-        self._whole = None
+        self._whole: Any = None
         if settings.verbose or settings.debug_dag:
             from snakemake.logging import ColorizingTextHandler
 
@@ -147,7 +152,7 @@ class Screen:
             if self._descriptor is not None:
                 self._stream.close()
 
-    def _planned(self, record):
+    def _planned(self, record: Any) -> None:
         """Take how many jobs there are, and begin to watch them."""
         if self._settings.dryrun:
             # Told after the jobs, where it is seen; the second time it is the same.
@@ -160,12 +165,12 @@ class Screen:
         self._say(f"to do: {' and '.join(words) or 'nothing'}", timed=True)
         if self._whole is None and self._descriptor is not None:
             descriptors = [self._descriptor]
-            if self._is_terminal and _is_terminal(1) and self._descriptor != 1:
+            if self._is_terminal and is_terminal(1) and self._descriptor != 1:
                 descriptors.append(1)
             self._output = ProcessOutput(descriptors, self._from_job)
         threading.Thread(target=self._watch, name="screen", daemon=True).start()
 
-    def _began(self, record):
+    def _began(self, record: Any) -> None:
         """Take a job that begins, or that would in a dry run."""
         before = log_mark(record.log[0]) if record.log else ()
         job = job_of(record, time.monotonic(), before)
@@ -179,7 +184,7 @@ class Screen:
         self.run.begin(job)
         self._show(time.monotonic())
 
-    def _finished(self, record):
+    def _finished(self, record: Any) -> None:
         """Say that a job has ended."""
         now = time.monotonic()
         job = self.run.finish(record.job_id, now)
@@ -198,7 +203,7 @@ class Screen:
         took = duration_text(now - job.begun)
         self._say(f"{job}: {f'{at}, ' if at else ''}done in {took} ({counts})", timed=True)
 
-    def _failed(self, record):
+    def _failed(self, record: Any) -> None:
         """Say that a job has failed, why, and where its log is."""
         number = record.jobid
         job = self.run.running.get(number)
@@ -219,7 +224,7 @@ class Screen:
             log = f" (log: {seen_from(self._start_folder, job.log)})" if job.log else ""
             self._say(f"FAILED {job}: {reason}{log}", is_error=True, timed=True, always=True)
 
-    def _group_failed(self, record):
+    def _group_failed(self, record: Any) -> None:
         """Take the jobs of a group that has failed, of which some may have ended well."""
         for info in record.job_error_info:
             if info["jobid"] in self.run.running:
@@ -227,7 +232,7 @@ class Screen:
                 failed.__dict__.update(info, wildcards={})
                 self._failed(failed)
 
-    def _error(self, record):
+    def _error(self, record: Any) -> None:
         """Show an error whole, but not that of a job's process: its failure is told by its log."""
         text = record.getMessage()
         if text.startswith(_INTERRUPTED):
@@ -241,7 +246,7 @@ class Screen:
         if not (self.is_interrupted and "CalledProcessError" in text):
             self._say(text, is_error=True, always=True)
 
-    def _message(self, record):
+    def _message(self, record: Any) -> None:
         """Show what Snakemake says, but for its chatter."""
         text = record.getMessage()
         self.is_interrupted |= text.startswith(_INTERRUPTED)
@@ -249,30 +254,32 @@ class Screen:
         if text and not text.startswith(_CHATTER):
             self._say(text, is_error=record.levelname in ("ERROR", "CRITICAL"), always=True)
 
-    def _command(self, record):
+    def _command(self, record: Any) -> None:
         """Show a command of the shell, which Snakemake hands on with --printshellcmds alone."""
         command = getattr(record, "shellcmd", None) or getattr(record, "cmd", None)
         if command:
             self._say(command, always=True)
 
-    def _from_job(self, line):
+    def _from_job(self, line: str) -> None:
         """Show what a job wrote, but for the message that its failure is told by."""
         with self._lock:
             if not line.startswith("branchcrush: "):
                 self._form.say(line)
 
-    def _say(self, text, is_error=False, timed=False, always=False):
+    def _say(
+        self, text: str, is_error: bool = False, timed: bool = False, always: bool = False
+    ) -> None:
         """Show a text; where only little is wanted, those that always are."""
         if self._is_wanted or (always and self._whole is None):
             self._form.say(text, is_error=is_error, timed=timed)
 
-    def _watch(self):
+    def _watch(self) -> None:
         """Show the run anew from time to time."""
         while not self._stop.wait(self._form.interval):
             with self._lock:
                 self._show(time.monotonic())
 
-    def _show(self, now):
+    def _show(self, now: float) -> None:
         """Look where the packings are, and show the run, where that is wanted now."""
         if self._stop.is_set() or not self._is_wanted or not self._form.wants(now):
             return
@@ -286,27 +293,5 @@ class Screen:
 class _Formatter:
     """Makes Snakemake's own text of a record."""
 
-    def __init__(self, whole) -> None:
+    def __init__(self, whole: Callable[[LogRecord], str]) -> None:
         self.format = whole
-
-
-def _descriptor(stream):
-    """Return the number of a stream's file, or None."""
-    try:
-        return stream.fileno()
-    except (OSError, ValueError, AttributeError):
-        return None
-
-
-def _copy(stream, descriptor):
-    """Return a stream to the same place that stays when what jobs write is taken from it."""
-    if descriptor is None:
-        return stream
-    return open(os.dup(descriptor), "w", encoding=stream.encoding, errors="replace")
-
-
-def _is_terminal(descriptor):
-    try:
-        return os.isatty(descriptor)
-    except OSError:
-        return False

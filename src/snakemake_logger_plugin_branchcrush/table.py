@@ -176,6 +176,6 @@ def counts_text(run: Run, now: float) -> str:
     return "; ".join(words)
 
 
-def _line(text):
+def _line(text: str) -> Text:
     """Return a text as one line of the terminal, cut at its edge."""
     return Text(text, no_wrap=True, overflow="ellipsis")
