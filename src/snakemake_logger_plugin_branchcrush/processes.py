@@ -65,7 +65,8 @@ def descriptor_of(stream: Any) -> int | None:
     int or None
     """
     try:
-        return stream.fileno()  # type: ignore[no-any-return]
+        number: int = stream.fileno()
+        return number
     except (OSError, ValueError, AttributeError):
         return None
 
