@@ -17,8 +17,8 @@ _KINDS = {
     ".dump.gz": ("gz", "application/gzip", False),
     ".data": ("data", "text/plain", False),
 }
-# The first line of a table says what made it.
-_DIALECT = {"header": True, "commentChar": "#"}
+# The first line of a table says what made it. Some readers count it, others know the sign.
+_DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
 # What a study makes only when it is asked for, and the description itself.
 _LEFT_OUT = ("preview", "datapackage.json")
 # Of the seeds that are run again there is no more.

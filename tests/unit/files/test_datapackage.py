@@ -30,7 +30,7 @@ def test_seeds_run_again_have_a_certificate_and_no_fit():
 def test_a_table_has_a_schema_with_units_and_says_where_its_comment_is():
     resource = BY_PATH["sand/seed_7/path.csv"]
     assert resource["type"] == "table"
-    assert resource["dialect"] == {"header": True, "commentChar": "#"}
+    assert (resource["dialect"]["headerRows"], resource["dialect"]["commentChar"]) == ([2], "#")
     fields = {field["name"]: field for field in resource["schema"]["fields"]}
     assert fields["mean_stress_Pa"]["type"] == "number"
     assert fields["mean_stress_Pa"]["unit"] == "Pa"
