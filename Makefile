@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality findings bench publish test lint docs lock clean own-environment
+.PHONY: help run preview example gallery tutorial quality findings bench publish test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -54,6 +54,14 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	    done; done; \
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
 	$(MADE) > docs/results/gallery_made.txt
+
+tutorial: $(READY) ## the study of docs/tutorial.md, and the pictures and numbers that it shows
+	$(BIN)/python docs/tutorial.py build/tutorial
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory build/tutorial
+	for figure in fig3_grading loading_path fig5_energy_split exponent_path certificate; do \
+	  $(SHRINK) build/tutorial/results/figures/my_sand/$$figure.png docs/figures/tutorial_$$figure.png; done
+	cp build/tutorial/results/comparison.csv docs/results/tutorial.csv
+	$(MADE) > docs/results/tutorial_made.txt
 
 quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, a quarter of an hour
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality

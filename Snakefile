@@ -50,5 +50,6 @@ rule all:
     default_target: True
     input:
         "results/comparison.csv",
+        "results/datapackage.json",
         "results/report.html",
         "results/findings.html",

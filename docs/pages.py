@@ -30,7 +30,13 @@ GATHERED = (
     "lammps_inputs/*",
     "studies/*/config.yaml",
 )
-FOR_SPHINX = ("docs/conf.py", "docs/pages.py", "docs/_static")
+FOR_SPHINX = (
+    "docs/conf.py",
+    "docs/pages.py",
+    "docs/results_page.py",
+    "docs/tutorial.py",
+    "docs/_static",
+)
 # Folders without a README that pages link to: the title of the page that lists what is in them.
 LISTED = {
     "benchmarks/results": "Results of the benchmarks",

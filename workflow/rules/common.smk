@@ -2,6 +2,7 @@
 
 from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
+from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
 
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}

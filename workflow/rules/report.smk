@@ -89,7 +89,9 @@ rule comparison:
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
-        "results/comparison.csv",
+        table="results/comparison.csv",
+        # No job of its own, which would take a second to start and a moment to write it.
+        package="results/datapackage.json",
     log:
         "logs/comparison.log",
     conda:
@@ -97,6 +99,8 @@ rule comparison:
     params:
         code=code("comparison"),
         samples=SAMPLES,
+        run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
+        dictionary=dictionary_digest(),
     script:
         "../scripts/comparison.py"
 

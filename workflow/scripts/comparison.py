@@ -1,7 +1,8 @@
-"""Put the samples beside each other, a row each."""
+"""Put the samples beside each other, a row each, and describe all files of the study."""
 
 from branchcrush.energy.fit import EnergySplitFit
-from branchcrush.files.tables import read_json, study_provenance, write_table
+from branchcrush.files.datapackage import data_package
+from branchcrush.files.tables import read_json, study_provenance, write_json, write_table
 from branchcrush.jobs import job
 from branchcrush.study.comparison import comparison_row
 
@@ -13,4 +14,8 @@ with job(snakemake.log[0]):
             samples, files.fits, files.summaries, files.certificates, strict=True
         )
     ]
-    write_table(snakemake.output[0], rows, study_provenance(samples))
+    origin = study_provenance(samples)
+    write_table(snakemake.output.table, rows, origin)
+    seeds = {name: sample["seeds"] for name, sample in samples.items()}
+    package = data_package(seeds, snakemake.params.run_again)
+    write_json(snakemake.output.package, package, origin)

@@ -39,6 +39,7 @@ _TAKEN = (
     "findings",
     "comparison.csv",
     "coordination.csv",
+    "datapackage.json",
     "exponents.csv",
     "findings.csv",
     "findings.html",

@@ -10,9 +10,12 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 - `seeds` reads the files of one seed as its contact network is made of them.
 - `grading_tables` reads a user's sieve curve, density or list of radii, and names every line that
   is wrong; `rows` reads the numbers of such a file, whatever machine or person wrote it.
+- `dictionary` tells what every file of the results holds, each column and key with its type, unit
+  and meaning, from the TOML files in `meanings`; `datapackage` makes `datapackage.json` of it.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
   leaves none by halves; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
 
-A newcomer adds a format of results to `tables`, beside the two of `write_table`; a kind of user's
-table to `grading_tables`, made of `rows.read_rows` and `rows.refuse`.
+A newcomer adds a result to the stage of `meanings` that it is of, and a test says what is missing
+there; a format of results to `tables`, beside the two of `write_table`; a kind of user's table to
+`grading_tables`, made of `rows.read_rows` and `rows.refuse`.
 """
