@@ -19,7 +19,7 @@ _QUANTITIES = {
     "jamming_solid_fraction": r"$\phi_J$",
 }
 _DECIDED = {"converged": OTHER, "not converged": MODEL, "not decided": FAINT}
-# So many tolerances away an interval is cut off.
+# So many tolerances away a change is drawn at the most.
 _FARTHEST = 4.0
 
 
@@ -152,7 +152,9 @@ def plot_jamming(jamming: Table, ax: Axes | None = None) -> Axes:
 
 
 def plot_convergence(rows: Sequence[Mapping[str, Any]], ax: Axes | None = None) -> Axes:
-    """Draw what twice the strain steps change, over what they may, with its 90 % interval.
+    """Draw what twice the strain steps change, over what they may, with its 95 % interval.
+
+    A change of more than four times as much as it may be is drawn there.
 
     Parameters
     ----------
@@ -172,6 +174,7 @@ def plot_convergence(rows: Sequence[Mapping[str, Any]], ax: Axes | None = None) 
     for verdict, color in _DECIDED.items():
         places = [place for place, row in enumerate(judged) if row["verdict"] == verdict]
         change = [judged[place]["difference"] / judged[place]["tolerance"] for place in places]
+        change = np.clip(change, -_FARTHEST, _FARTHEST)
         # One pair has no interval.
         bars = [
             (judged[place]["could_see"] or np.nan) / judged[place]["tolerance"] for place in places
@@ -180,11 +183,11 @@ def plot_convergence(rows: Sequence[Mapping[str, Any]], ax: Axes | None = None) 
             ax.errorbar(change, places, xerr=bars, fmt="o", ms=3, lw=1, color=color, label=verdict)
     ax.axvline(0.0, color="black", lw=0.5)
     low, high = ax.get_xlim()
-    ax.set_xlim(max(low, -_FARTHEST), min(high, _FARTHEST))
+    ax.set_xlim(max(low, -1.1 * _FARTHEST), min(high, 1.1 * _FARTHEST))
     ax.set_yticks(range(len(judged)), [_compared(row) for row in judged])
     ax.set_ylim(len(judged) - 0.5, -0.5)
-    ax.set_xlabel("change with twice the strain steps over what is allowed [-], bars: 90 %")
-    ax.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    ax.set_xlabel("change with twice the strain steps over what is allowed [-], bars: 95 %")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
     return ax
 
 

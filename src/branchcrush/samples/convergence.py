@@ -35,7 +35,7 @@ TOLERANCES = {
     "mechanical_coordination_number": 0.1,
     "jamming_solid_fraction": 0.01,
 }
-# Of each of the two one-sided tests: a wrong decision is at most so likely.
+# A wrong decision is at most so likely; it is what the interval leaves out on both sides together.
 _WRONG = 0.05
 _WORDS = {
     "exponent": "n",
@@ -98,7 +98,7 @@ def convergence_table(
 ) -> pd.DataFrame:
     r"""Return what twice the strain steps change, and whether that is little enough.
 
-    .. math:: \bar d \pm t_{0.95}\, s_{\bar d}: \quad
+    .. math:: \bar d \pm t_{0.975}\, s_{\bar d}: \quad
         \text{converged inside} \pm T, \quad \text{not converged outside}
 
     Parameters
@@ -113,20 +113,21 @@ def convergence_table(
     DataFrame
         A row for each quantity: the means of both runs, their difference and its standard error,
         from pairs of one seed, or of n from all packings of either run as two ensembles of one
-        scatter. `could_see` is half of the 90 % interval: the least difference that can be told
+        scatter. `could_see` is half of the 95 % interval: the least difference that can be told
         from none. `verdict` is that of `decision`, and empty for what is not judged. No row when
         no seed is certified in both runs.
 
     References
     ----------
-    Schuirmann (1987), Journal of Pharmacokinetics and Biopharmaceutics 15, 657: two one-sided
-    tests.
+    Schuirmann (1987), Journal of Pharmacokinetics and Biopharmaceutics 15, 657: equivalence by
+    an interval.
     """
     both = once.index.intersection(twice.index)
     if not len(both):
         return pd.DataFrame(columns=_COLUMNS)
     rows = [_of_ensembles(exponents, exponents_at_twice)]
-    rows += [_of_pairs(name, once.loc[both, name], twice.loc[both, name]) for name in _PAIRED]
+    pairs = [run.loc[both, list(_PAIRED)].to_numpy().T for run in (once, twice)]
+    rows += [_of_pairs(*pair) for pair in zip(_PAIRED, *pairs, strict=True)]
     return pd.DataFrame(rows, columns=_COLUMNS)
 
 
@@ -137,7 +138,7 @@ def decision(difference: float, could_see: float, tolerance: float) -> Decision:
     ----------
     difference : float
     could_see : float
-        Half of its 90 % interval; nan where there is none.
+        Half of its 95 % interval; nan where there is none.
     tolerance : float
 
     Returns
@@ -178,13 +179,14 @@ def convergence_words(table: pd.DataFrame) -> list[str]:
 
 
 def _of_pairs(quantity, once, twice):
-    pairs = (twice - once).dropna()
-    once, twice = once[pairs.index], twice[pairs.index]
-    count = len(pairs)
-    error = pairs.std(ddof=1) / np.sqrt(count) if count > 1 else np.nan
-    tolerance = TOLERANCES.get(quantity, SHARES.get(quantity, np.nan) * abs(once.mean()))
-    runs = (count, once.mean(), count, twice.mean())
-    return _row(quantity, runs, pairs.mean(), error, count - 1, tolerance, "pairs")
+    pairs = np.isfinite(twice - once)
+    once, twice = once[pairs], twice[pairs]
+    count, difference = once.size, twice - once
+    error = difference.std(ddof=1) / np.sqrt(count) if count > 1 else np.nan
+    means = [run.mean() if count else np.nan for run in (once, twice, difference)]
+    tolerance = TOLERANCES.get(quantity, SHARES.get(quantity, np.nan) * abs(means[0]))
+    runs = (count, means[0], count, means[1])
+    return _row(quantity, runs, means[2], error, count - 1, tolerance, "pairs")
 
 
 def _of_ensembles(exponents, exponents_at_twice):
@@ -205,7 +207,7 @@ def _row(quantity, runs, difference, error, freedom, tolerance, compared_by):
     from scipy.special import stdtrit  # slow to import, and few jobs need it
 
     seeds, value, refined_seeds, refined = runs
-    could_see = stdtrit(freedom, 1.0 - _WRONG) * error if freedom > 0 else np.nan
+    could_see = stdtrit(freedom, 1.0 - _WRONG / 2) * error if freedom > 0 else np.nan
     judged = np.isfinite(difference) and np.isfinite(tolerance)
     verdict = decision(difference, could_see, tolerance) if judged else ""
     numbers = (quantity, seeds, value, refined, difference, error, refined_seeds)
@@ -227,8 +229,8 @@ def _amount(row, amount, sign=""):
 
 def _number_of(row):
     if row.compared_by == "pairs":
-        return f"{row.seeds} {'pair' if row.seeds == 1 else 'pairs'} of one seed, 90 % interval"
-    return f"{row.seeds} packings against {row.seeds_at_twice_the_steps}, unpaired, 90 % interval"
+        return f"{row.seeds} {'pair' if row.seeds == 1 else 'pairs'} of one seed, 95 % interval"
+    return f"{row.seeds} packings against {row.seeds_at_twice_the_steps}, unpaired, 95 % interval"
 
 
 def _least_seen(row):

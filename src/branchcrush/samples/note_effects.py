@@ -46,7 +46,12 @@ def effect_of(check: str, value: float) -> str:
     levels = sorted({row.level for row in rows})
     level = next((known for known in levels if known >= value), levels[-1])
     measured = "; ".join(_words(row) for row in rows if row.level == level)
-    return f"{_BASIS[check].format(level=level)} {measured} ({MEASURED})"
+    beyond = f"; {_BEYOND[check]}" if _is_beyond(check, value, levels) else ""
+    return f"{_BASIS[check].format(level=level)} {measured} ({MEASURED}){beyond}"
+
+
+def _is_beyond(check, value, levels):
+    return value < levels[0] if check == "few grains" else value > levels[-1]
 
 
 _BASIS = {
@@ -56,6 +61,12 @@ _BASIS = {
     ),
     "few grains": "a cell of {level:g} diameters beside one of 5:",
     "convergence": "standard strain steps beside a quarter of them:",
+}
+# What is said where a check found more than was measured.
+_BEYOND = {
+    "overlaps": "deeper ones were not measured and change more",
+    "few grains": "narrower ones were not measured and may change more",
+    "convergence": "",
 }
 
 
