@@ -21,16 +21,18 @@ SETTINGS = {
     "paper": "uniform 200, walls, linear",
     "fractal": "fractal 5, periodic, linear",
     "lognormal": "lognormal, periodic, Hertz",
+    "walls": "uniform 200, walls, linear",
+    "periodic": "uniform 200, periodic, linear",
 }
 
 
 def main() -> None:
     """Print the table as CSV."""
     rows = []
-    for sample in ("paper-standard", "fractal-box-5", "lognormal-standard"):
+    for sample in ("paper-standard", "fractal-standard", "lognormal-standard"):
         rows += _of_overlaps(sample)
-    for grading in ("paper", "fractal"):
-        rows += _of_few_grains(grading)
+    for boundary in ("walls", "periodic"):
+        rows += _of_few_grains(boundary)
     rows += _of_steps(["paper", "lognormal", "fractal"])
     pd.DataFrame(rows).to_csv(sys.stdout, index=False, float_format="%.3g")
 
@@ -102,9 +104,9 @@ def _at_level(path, level):
     return [lens, *(lens * slope for slope in slopes)]
 
 
-def _of_few_grains(grading):
+def _of_few_grains(boundary):
     """Return what a cell of 3.1 diameters changes beside one of 5, at the same target."""
-    few, many = f"{grading}-box-3", f"{grading}-box-5"
+    few, many = f"{boundary}-box-3", f"{boundary}-box-5"
     ends = [pd.DataFrame(list(map(_end_of, _seeds_of(name)))) for name in (few, many)]
     n = [_exponents_of(name) for name in (few, many)]
     yield {
