@@ -12,6 +12,7 @@ import pandas as pd
 from scipy.stats import linregress
 
 from branchcrush.files.tables import read_json, read_packing, read_table
+from branchcrush.packings.geometry import shared_volume
 from branchcrush.samples.ensemble import end_of_loading
 
 RESULTS = Path(__file__).parent / "results"
@@ -71,7 +72,7 @@ def _loaded_path(folder):
     path = read_table(folder / "path.csv")
     path = path[path["carries_load"] & (path["leg"] == "loading")].set_index("state")
     contacts = read_table(folder / "contacts.parquet")
-    lenses = _lens_volume(contacts["radius_i_m"], contacts["radius_j_m"], contacts["overlap_m"])
+    lenses = shared_volume(contacts["radius_i_m"], contacts["radius_j_m"], contacts["overlap_m"])
     twice = lenses.groupby(contacts["state"]).sum()
     walls = read_table(folder / "wall_contacts.parquet")
     _, radii, _ = read_packing(folder / "packing.npz")
@@ -80,13 +81,6 @@ def _loaded_path(folder):
     twice = twice.add(caps.groupby(walls["state"]).sum(), fill_value=0.0)
     path["twice"] = twice.reindex(path.index) / path["volume_m3"]
     return path
-
-
-def _lens_volume(radius, other, overlap):
-    """Return the volume that two overlapping spheres share [m3]."""
-    distance = radius + other - overlap
-    shape = distance**2 + 2 * distance * (radius + other) - 3 * (radius - other) ** 2
-    return np.pi * overlap**2 * shape / (12 * distance)
 
 
 def _at_level(path, level):
