@@ -58,7 +58,8 @@ def _of_overlaps(sample):
         lens, stress, energy = np.array(found).T
         yield {
             **_row_of("overlaps", level, sample, len(seeds)),
-            **_percent("volume", lens),
+            "volume_percent": 100 * lens.mean(),
+            "volume_percent_error": 100 * _standard_error(lens),
             **_percent("stress", stress),
             **_percent("energy", energy),
             # A straight line: from state to state the exponent is not sure enough for a slope.
@@ -154,16 +155,20 @@ def _row_of(check, level, sample, packings):
     return {"check": check, "level": level, "measured_on": measured_on, "packings": packings}
 
 
-def _percent(name, values):
-    values = 100 * np.asarray(values)
-    return {f"{name}_percent": values.mean(), f"{name}_percent_error": _standard_error(values)}
+def _percent(name, logarithms):
+    """Return a mean change of a logarithm as a percentage, with its standard error."""
+    logarithms = np.asarray(logarithms)
+    return _of_logarithm(name, logarithms.mean(), _standard_error(logarithms))
 
 
 def _difference(name, one, other):
-    return {
-        f"{name}_percent": 100 * (one.mean() - other.mean()),
-        f"{name}_percent_error": 100 * np.hypot(_standard_error(one), _standard_error(other)),
-    }
+    error = np.hypot(_standard_error(one), _standard_error(other))
+    return _of_logarithm(name, one.mean() - other.mean(), error)
+
+
+def _of_logarithm(name, change, error):
+    ratio = np.exp(change)
+    return {f"{name}_percent": 100 * (ratio - 1), f"{name}_percent_error": 100 * ratio * error}
 
 
 def _standard_error(values):

@@ -21,9 +21,54 @@ class Effect(NamedTuple):
 
 
 EFFECTS = (
-    Effect("overlaps", 0.05, "x", (2.4, 0.1), (4.3, 0.1), (0.003, 0.001)),
-    Effect("few grains", 3.1, "y", (2.4, 0.1), (4.3, 0.1), (0.003, 0.001)),
-    Effect("convergence", 0.0, "z", (2.4, 0.1), (4.3, 0.1), (0.003, 0.001)),
+    Effect(
+        "overlaps",
+        0.05,
+        "uniform 200, walls, linear",
+        (2.4, 0.1),
+        (4.4, 0.1),
+        (0.0, 0.0),
+    ),
+    Effect(
+        "overlaps",
+        0.1,
+        "uniform 200, walls, linear",
+        (6.3, 0.1),
+        (11.4, 0.1),
+        (0.01, 0.0),
+    ),
+    Effect(
+        "overlaps",
+        0.15,
+        "uniform 200, walls, linear",
+        (12.1, 0.2),
+        (22.0, 0.4),
+        (0.02, 0.0),
+    ),
+    Effect(
+        "few grains",
+        3.1,
+        "uniform 200, walls, linear",
+        (12.0, 1.1),
+        (51.4, 2.5),
+        (0.04, 0.16),
+    ),
+    Effect(
+        "few grains",
+        3.1,
+        "uniform 200, periodic, linear",
+        (1.8, 1.6),
+        (4.0, 3.3),
+        (0.1, 0.16),
+    ),
+    Effect(
+        "convergence",
+        0,
+        "standard against fine, three gradings",
+        (-0.8, 0.4),
+        (-0.6, 0.7),
+        (0.01, 0.05),
+    ),
 )
 
 
