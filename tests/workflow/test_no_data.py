@@ -69,7 +69,7 @@ def test_a_stress_path_goes_to_every_stress_and_back(no_data):
 def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
     table = read_table(no_data / "comparison.csv").set_index("sample")
     assert table["reason"].to_dict() == {"alike": ONE_LENGTH, "loose": NO_LOAD}
-    assert table["verdict"].to_dict() == {"alike": "flagged", "loose": "not certified"}
+    assert table["verdict"].to_dict() == {"alike": "certified with notes", "loose": "not certified"}
     assert table[["exponent", "theta"]].isna().all(axis=None)
     assert table["seeds_certified"].to_dict() == {"alike": 1, "loose": 0}
     for name, text in (("alike", ONE_LENGTH), ("loose", NO_LOAD)):
@@ -80,7 +80,7 @@ def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
     assert read_table(no_data / "alike/branch_lengths.csv")["branches"].sum() > 40
     assert read_json(no_data / "loose/branch_lengths.json")["reason"] == NO_LOAD
     assert summary(no_data).splitlines()[:2] == [
-        f"alike: flagged, no exponent: {ONE_LENGTH}",
+        f"alike: certified with notes, no exponent: {ONE_LENGTH}",
         f"loose: not certified, no exponent: {NO_LOAD}",
     ]
 

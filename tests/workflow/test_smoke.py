@@ -145,12 +145,13 @@ def test_every_state_of_every_seed_is_judged(sample):
         assert verdict["worst"][name] == pytest.approx(loaded[name].max())
         assert verdict["worst"][name] <= limit
     # So few grains stand for no grading, and grains pressed so far together for no small overlap.
-    assert verdict["verdict"] in ("flagged", "not certified")
-    assert "too few for this grading" in " ".join(verdict["flags"])
-    assert "overlaps at the end" in " ".join(verdict["flags"])
+    assert verdict["verdict"] in ("certified with notes", "not certified")
+    notes = {note["check"]: note["text"] for note in verdict["notes"]}
+    assert "too few for this grading" in notes["few grains"]
+    assert "overlaps at the end" in notes["overlaps"]
     # Two seeds of few grains: a run of another machine may differ in what they tell.
     expected = ("not converged", "too few seeds or branches to tell n")
-    assert all(reason.startswith(expected) for reason in verdict["reasons"])
+    assert all(any(text in reason for text in expected) for reason in verdict["reasons"])
 
 
 def test_every_packing_jams_after_its_last_loose_state_and_about_its_first_loaded(sample):
@@ -168,7 +169,9 @@ def test_every_packing_jams_after_its_last_loose_state_and_about_its_first_loade
 def test_the_first_seed_is_run_again_with_twice_the_steps_from_the_same_packing(sample):
     table = read_table(sample / "convergence.csv").set_index("quantity")
     again = sample.with_name("tiny-refined") / "seed_3"
-    assert (table["seeds"] == 1).all()
+    assert (table["seeds"].drop("exponent") == 1).all()
+    # n of both packings against that of the one run again.
+    assert table.loc["exponent", ["seeds", "seeds_at_twice_the_steps"]].tolist() == [2, 1]
     once, twice = (read_table(folder / "path.csv") for folder in (sample / "seed_3", again))
     assert table.loc["mean_stress_Pa", "value"] == once["mean_stress_Pa"].iloc[-1]
     refined = twice["mean_stress_Pa"].iloc[-1]

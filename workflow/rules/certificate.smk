@@ -25,20 +25,15 @@ rule certificate:
 rule verdict:
     input:
         states="results/{sample}/certificate.csv",
-        refined_states=lambda wildcards: [
-            f"results/{name}/certificate.csv"
-            for name in [wildcards.sample + REFINED]
-            if name in REFINED_SAMPLES
-        ],
+        refined_states=of_refined_sample("certificate.csv"),
+        refined_jamming=of_refined_sample("jamming.csv"),
         jamming="results/{sample}/jamming.csv",
         grading="results/{sample}/grading.json",
         # Whether its interval tells n; fits take the states that are certified, not the verdict.
         fit="results/{sample}/energy_split.json",
-        all_paths=of_all_seeds("path.csv"),
-        paths=of_refined_seeds("path.csv", refined=False),
-        contacts=of_refined_seeds("contacts.parquet", refined=False),
-        refined_paths=of_refined_seeds("path.csv", refined=True),
-        refined_contacts=of_refined_seeds("contacts.parquet", refined=True),
+        paths=of_all_seeds("path.csv"),
+        refined_paths=of_refined_seeds("path.csv"),
+        refined_contacts=of_refined_seeds("contacts.parquet"),
         data=data_files,
     output:
         convergence="results/{sample}/convergence.csv",

@@ -49,13 +49,24 @@ def of_first_seed(file):
     return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
 
 
-def of_refined_seeds(file, refined):
-    """Return an input function for a file of the seeds run twice, in one or the other run."""
+def of_refined_sample(file):
+    """Return an input function for a file of the sample with twice the steps, if there is one."""
 
     def files(wildcards):
         name = wildcards.sample + REFINED
-        seeds = REFINED_SAMPLES[name]["seeds"] if name in REFINED_SAMPLES else []
-        return of_seeds(file, name if refined else wildcards.sample, seeds)
+        return [f"results/{name}/{file}"] if name in REFINED_SAMPLES else []
+
+    return files
+
+
+def of_refined_seeds(file):
+    """Return an input function for a file of every seed that is run again with twice the steps."""
+
+    def files(wildcards):
+        name = wildcards.sample + REFINED
+        return (
+            of_seeds(file, name, REFINED_SAMPLES[name]["seeds"]) if name in REFINED_SAMPLES else []
+        )
 
     return files
 

@@ -82,7 +82,7 @@ def draw_packing(
 def draw_certificate(
     path: Path, dpi: int, states: Table, jamming: Table, verdict: Mapping
 ) -> Figure:
-    """Draw the certificate of every state and the jamming points, and return the figure.
+    """Draw the certificate of every state, jamming points and convergence, and return the figure.
 
     Parameters
     ----------
@@ -100,9 +100,15 @@ def draw_certificate(
     -------
     Figure
     """
-    with figure(path, dpi, *grid(2, 2)) as panels:
+    with figure(path, dpi, *grid(3, 2)) as panels:
         certificate.plot_rest(states, verdict["limits"], ax=panels[0, 0])
         certificate.plot_overlaps(states, OVERLAP_FLAG, ax=panels[0, 1])
         certificate.plot_dissipation(states, ax=panels[1, 0])
         certificate.plot_jamming(jamming, ax=panels[1, 1])
+        bottom = panels[2, 0].get_gridspec()[2, :]
+        for panel in panels[2]:
+            panel.remove()
+        certificate.plot_convergence(
+            verdict["convergence"], ax=panels[0, 0].figure.add_subplot(bottom)
+        )
     return panels[0, 0].figure

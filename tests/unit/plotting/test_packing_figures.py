@@ -29,13 +29,15 @@ def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
 
 
 def test_every_panel_of_the_certificate_has_its_table(drawn, given):
-    plots = ("plot_rest", "plot_overlaps", "plot_dissipation", "plot_jamming")
+    plots = ("plot_rest", "plot_overlaps", "plot_dissipation", "plot_jamming", "plot_convergence")
     calls = given(certificate, *plots)
     limits = {"inertial_number": 1e-4}
-    drawn(packing_figures.draw_certificate, "states", "jamming", {"limits": limits})
+    verdict = {"limits": limits, "convergence": ["row"]}
+    drawn(packing_figures.draw_certificate, "states", "jamming", verdict)
     assert calls == {
         "plot_rest": ("states", limits),
         "plot_overlaps": ("states", 0.05),
         "plot_dissipation": ("states",),
         "plot_jamming": ("jamming",),
+        "plot_convergence": (["row"],),
     }

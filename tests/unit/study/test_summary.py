@@ -7,7 +7,7 @@ from branchcrush.study.summary import summary
 
 ROW = {
     "sample": "paper",
-    "verdict": "flagged",
+    "verdict": "certified with notes",
     "exponent": 3.111,
     "exponent_low": 2.99,
     "exponent_high": 3.24,
@@ -31,20 +31,23 @@ def written(tmp_path):
 
 def test_sample_has_its_verdict_exponent_interval_and_the_seeds_behind_it(written):
     assert written(ROW)[0] == (
-        "paper: flagged, n = 3.11, with 95 % confidence between 2.99 and 3.24 (15 packings), "
+        "paper: certified with notes, n = 3.11, with 95 % confidence between 2.99 and 3.24 (15 packings), "
         "at solid fraction 0.741"
     )
 
 
 def test_one_seed_has_no_interval(written):
     line = written({**ROW, "exponent_low": None, "exponent_high": None, "seeds_certified": 1})[0]
-    assert line == "paper: flagged, n = 3.11 (one packing: no interval), at solid fraction 0.741"
+    assert (
+        line
+        == "paper: certified with notes, n = 3.11 (one packing: no interval), at solid fraction 0.741"
+    )
 
 
 def test_sample_without_data_says_why(written):
     loose = {**ROW, **EMPTY, "sample": "loose", "verdict": "not certified", "reason": "no load"}
     lines = written(ROW, loose)
-    assert lines[0].startswith("paper: flagged, n = 3.11, ")
+    assert lines[0].startswith("paper: certified with notes, n = 3.11, ")
     assert lines[1] == "loose: not certified, no exponent: no load"
 
 
