@@ -21,6 +21,7 @@ GATHERED = (
     "CHANGELOG.md",
     "CITATION.cff",
     "CONTRIBUTING.md",
+    "config.schema.json",
     "benchmarks/*.py",
     "benchmarks/peers/*.md",
     "benchmarks/results/*",
