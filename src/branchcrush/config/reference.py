@@ -126,7 +126,7 @@ def _keys(root, section, above) -> Iterator[Key]:
     """Yield each key of a section and below it, but for those of a section of several forms."""
     for name, value in section["properties"].items():
         path, below = f"{above}{name}", _resolved(root, value)
-        meaning, unit = _DESCRIPTION.fullmatch(below["description"]).groups()
+        meaning, unit = _DESCRIPTION.fullmatch(below.get("description", "")).groups()
         required = name in section.get("required", [])
         default = "required" if required else _default(value.get("default"))
         inner, path_below = below, f"{path}."
