@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery tutorial quality findings bench publish test lint docs lock clean own-environment
+.PHONY: help run preview example gallery tutorial quality findings bench publish schema test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -85,6 +85,10 @@ publish: run ## the figures and tables that README and docs show, from this run
 	for figure in fig4_packing fig5_energy_split exponent_path fig7_branch_lengths certificate; do \
 	  $(SHRINK) results/figures/paper/$$figure.png docs/figures/$$figure.png; done
 	$(MADE) > docs/results/made.txt
+
+schema: $(READY) ## config.schema.json, the tables of docs/configuration.md and docs/licences.md
+	$(BIN)/python -m branchcrush.config.json_schema
+	$(BIN)/python docs/licences.py
 
 test: lint docs ## the linters, the site, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile

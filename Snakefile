@@ -27,6 +27,15 @@ except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
 
+# The first, and so the default, but not a module's over a rule of the workflow that uses it.
+rule all:
+    input:
+        "results/comparison.csv",
+        "results/datapackage.json",
+        "results/report.html",
+        "results/findings.html",
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/compression.smk"
 include: "workflow/rules/grading.smk"
@@ -44,12 +53,3 @@ onstart:
     # each second from then on.
     if workflow.local_exec:
         workflow.scheduler.job_rate_limiter = None
-
-
-rule all:
-    default_target: True
-    input:
-        "results/comparison.csv",
-        "results/datapackage.json",
-        "results/report.html",
-        "results/findings.html",

@@ -7,8 +7,8 @@ rule certificate:
         paths=of_all_seeds("path.csv"),
         steps=of_all_seeds("steps.csv"),
     output:
-        states="results/{sample}/certificate.csv",
-        jamming="results/{sample}/jamming.csv",
+        states=table("certificate", "every saved state with its measures and verdict"),
+        jamming=table("jamming", "jamming solid fraction of every packing, with its uncertainty"),
     log:
         "logs/{sample}/certificate.log",
     # All that is fitted waits for it.
@@ -36,7 +36,7 @@ rule verdict:
         refined_contacts=of_refined_seeds("contacts.parquet"),
         data=data_files,
     output:
-        convergence="results/{sample}/convergence.csv",
+        convergence=table("convergence", "the first seeds again with twice the strain steps"),
         certificate="results/{sample}/certificate.json",
     log:
         "logs/{sample}/verdict.log",

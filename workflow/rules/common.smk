@@ -1,10 +1,14 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
+from pathlib import Path
+
 from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
 from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
 
+# Of this project: a workflow that uses it as a module has another basedir.
+ROOT = Path(workflow.current_basedir).parents[1]
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}
 # The first seeds again with twice the strain steps, for the certificate's convergence.
 REFINED_SAMPLES = {
@@ -32,7 +36,12 @@ def section(*keys):
 
 def data_files(wildcards):
     """Return the files that the sample's grading is read from."""
-    return grading_data_files(sample_of(wildcards)["grading"])
+    return data_of(sample_of(wildcards))
+
+
+def data_of(settings):
+    """Return the files that a grading is read from; a module's prefix does not move them."""
+    return [local(file) for file in grading_data_files(settings["grading"])]
 
 
 def of_seeds(file, of, seeds):
@@ -75,3 +84,47 @@ def code(script):
     """Return what stands for the modules a script runs: an edit of one reruns the jobs."""
     # One text, where each module as an input would be looked at and recorded with every output.
     return source_digest(workflow.source_path(f"../scripts/{script}.py"))
+
+
+def figure(name):
+    """Return a figure of a sample, as an output that `snakemake --report` holds."""
+    return report(
+        f"results/figures/{{sample}}/{name}.png",
+        caption=f"../report/captions/{name}.rst",
+        category="Sample {sample}",
+        subcategory="Figures",
+        labels={"figure": name.replace("_", " ")},
+    )
+
+
+def table(name, holds):
+    """Return a table of a sample, in the same way, with words for what it holds."""
+    return report(
+        f"results/{{sample}}/{name}.csv",
+        caption="../report/captions/table.rst",
+        category="Sample {sample}",
+        subcategory="Tables",
+        labels={"table": name.replace("_", " "), "holds": holds},
+    )
+
+
+def study_figure(name):
+    """Return a figure of all samples, in the same way."""
+    return report(
+        f"results/figures/findings/{name}.png",
+        caption=f"../report/captions/findings_{name}.rst",
+        category="All samples",
+        subcategory="Figures",
+        labels={"figure": name},
+    )
+
+
+def study_table(name, holds):
+    """Return a table of all samples, in the same way."""
+    return report(
+        f"results/{name}.csv",
+        caption="../report/captions/table.rst",
+        category="All samples",
+        subcategory="Tables",
+        labels={"table": name, "holds": holds},
+    )

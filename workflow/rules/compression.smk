@@ -6,7 +6,7 @@ rule compression:
     input:
         data=data_files,
         inputs=[
-            f"{workflow.basedir}/lammps_inputs/{file}"
+            f"{ROOT}/lammps_inputs/{file}"
             for file in (
                 "in.compress",
                 "mod.cell",

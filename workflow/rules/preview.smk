@@ -4,7 +4,7 @@
 rule preview:
     input:
         inputs=rules.compression.input.inputs,
-        data=[file for s in SAMPLES.values() for file in grading_data_files(s["grading"])],
+        data=[file for settings in SAMPLES.values() for file in data_of(settings)],
     log:
         "logs/preview.log",
     localrule: True

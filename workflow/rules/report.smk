@@ -44,7 +44,7 @@ rule packing_figures:
         packing=of_first_seed("packing.npz"),
         particles=of_first_seed("particles.dump.gz"),
     output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
+        **{name: figure(name) for name in PACKING_FIGURES},
     log:
         "logs/{sample}/packing_figures.log",
     conda:
@@ -70,7 +70,7 @@ rule fit_figures:
         paths=of_all_seeds("path.csv"),
         data=data_files,
     output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
+        **{name: figure(name) for name in FIT_FIGURES},
     log:
         "logs/{sample}/fit_figures.log",
     conda:
@@ -89,7 +89,9 @@ rule comparison:
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
-        table="results/comparison.csv",
+        table=study_table(
+            "comparison", "a row for each sample: verdict, exponent with its interval, model"
+        ),
         # No job of its own, which would take a second to start and a moment to write it.
         package="results/datapackage.json",
     log:
@@ -111,7 +113,7 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
-        template=f"{workflow.basedir}/workflow/report/report.html.jinja",
+        template=f"{ROOT}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
@@ -139,9 +141,11 @@ rule findings:
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
     output:
-        rows="results/findings.csv",
-        exponents="results/exponents.csv",
-        states="results/coordination.csv",
+        rows=study_table(
+            "findings", "a row for each sample: exponents, predictors, shielding, forces"
+        ),
+        exponents=study_table("exponents", "the exponent in every state of every sample"),
+        states=study_table("coordination", "coordination numbers of every packing of every sample"),
     log:
         "logs/findings.log",
     conda:
@@ -156,7 +160,7 @@ rule findings:
 
 rule findings_page:
     input:
-        template=f"{workflow.basedir}/workflow/report/findings.html.jinja",
+        template=f"{ROOT}/workflow/report/findings.html.jinja",
         rows="results/findings.csv",
         states="results/coordination.csv",
         paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
@@ -165,7 +169,7 @@ rule findings_page:
         stress=expand("results/{sample}/stress_sharing.csv", sample=SAMPLES),
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
     output:
-        **{name: f"results/figures/findings/{name}.png" for name in FINDINGS},
+        **{name: study_figure(name) for name in FINDINGS},
         page="results/findings.html",
     log:
         "logs/findings_page.log",

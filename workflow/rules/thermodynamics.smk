@@ -8,7 +8,9 @@ rule thermodynamics:
         certificate="results/{sample}/certificate.csv",
         data=data_files,
     output:
-        curves="results/{sample}/thermodynamics.csv",
+        curves=table(
+            "thermodynamics", "curves of the crushing model at fixed and evolving crushing"
+        ),
         summary="results/{sample}/thermodynamics.json",
     log:
         "logs/{sample}/thermodynamics.log",

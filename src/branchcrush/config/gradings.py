@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
-from branchcrush.config.fields import Positive, Section, number, refusal
+from branchcrush.config.fields import Allowed, Positive, Section, number, refusal
 from branchcrush.config.units import UNITS
 
 # Of a grain [m]. Outside of them it is the unit that is wrong.
@@ -27,16 +27,32 @@ def _possible(size, info):
 Length = number(above=0, unit_of="unit")
 Size = Annotated[Length, AfterValidator(_possible)]
 
+_FORM_TELLS = Field(description="What the form tells of: the number of grains, or their mass.")
+_WEIGHTS_ARE = Field(description="What the weights are of: the number of grains, or their mass.")
+_SIZES_ARE = Field(description="What sizes are: of a grain its radius or its diameter.")
+Basis = Annotated[Literal["number", "mass"], _FORM_TELLS]
+OfNumber = Annotated[Literal["number"], _FORM_TELLS]
+OfMass = Annotated[Literal["mass"], _FORM_TELLS]
+FileName = Annotated[
+    str,
+    Allowed("must be the name of a file"),
+    Field(
+        min_length=1,
+        description="Name of the file, relative to the folder that the study runs in.",
+        examples=["sand.csv"],
+    ),
+]
+
 
 class _Sizes(Section):
     # Never guessed: either slip is a factor 2, or 1000, in every size.
-    size: Literal["radius", "diameter"]
-    unit: Literal["m", "mm", "um"]
+    size: Annotated[Literal["radius", "diameter"], _SIZES_ARE]
+    unit: Literal["m", "mm", "um"] = Field(description="Unit of the sizes.")
 
 
 class _Range(_Sizes):
-    min: Size
-    max: Size
+    min: Size = Field(description="Smallest size of a grain [unit].", examples=[0.063])
+    max: Size = Field(description="Largest size of a grain [unit].", examples=[2.0])
 
     @field_validator("max")
     @classmethod
@@ -48,23 +64,25 @@ class UniformGrading(_Range):
     """The same density at every size."""
 
     form: Literal["uniform"]
-    basis: Literal["number", "mass"]
+    basis: Basis
 
 
 class LoguniformGrading(_Range):
     """Uniform in the logarithm of size."""
 
     form: Literal["loguniform"]
-    basis: Literal["number", "mass"]
+    basis: Basis
 
 
 class NormalGrading(_Range):
     """The normal distribution of size, cut at min and max."""
 
     form: Literal["normal"]
-    basis: Literal["number", "mass"]
-    mean: Length
-    standard_deviation: Length
+    basis: Basis
+    mean: Length = Field(description="Mean of the normal distribution [unit].", examples=[0.5])
+    standard_deviation: Length = Field(
+        description="Standard deviation of the normal distribution [unit].", examples=[0.15]
+    )
 
     @field_validator("standard_deviation")
     @classmethod
@@ -78,9 +96,12 @@ class LognormalGrading(_Range):
     """The normal distribution of the logarithm of size, cut at min and max."""
 
     form: Literal["lognormal"]
-    basis: Literal["number", "mass"]
-    median: Length
-    geometric_standard_deviation: number(above=1, most=1000)
+    basis: Basis
+    median: Length = Field(description="Median of the distribution [unit].", examples=[0.1])
+    geometric_standard_deviation: number(above=1, most=1000) = Field(
+        description="Exponential of the standard deviation of the logarithm of size [-].",
+        examples=[1.4],
+    )
 
     @field_validator("geometric_standard_deviation")
     @classmethod
@@ -94,9 +115,13 @@ class WeibullGrading(_Range):
     """The Weibull distribution, by mass that of Rosin and Rammler, cut at min and max."""
 
     form: Literal["weibull"]
-    basis: Literal["number", "mass"]
-    scale: Length
-    shape: number(above=0, most=1000)
+    basis: Basis
+    scale: Length = Field(
+        description="Size that a share of 1/e, 37 %, exceeds [unit].", examples=[0.5]
+    )
+    shape: number(above=0, most=1000) = Field(
+        description="Exponent of size over scale; the larger, the narrower [-].", examples=[2.0]
+    )
 
     @field_validator("shape")
     @classmethod
@@ -109,29 +134,31 @@ class FractalGrading(_Range):
     """Number density ~ R^-(1+alpha)."""
 
     form: Literal["fractal"]
-    basis: Literal["number"]
-    alpha: number(above=0, most=6)
+    basis: OfNumber
+    alpha: number(above=0, most=6) = Field(description="Fractal dimension [-].", examples=[2.6])
 
 
 class FullerGrading(_Range):
     """Mass finer ~ D^exponent - D_min^exponent."""
 
     form: Literal["fuller"]
-    basis: Literal["mass"]
-    exponent: number(above=0, most=6)
+    basis: OfMass
+    exponent: number(above=0, most=6) = Field(
+        description="Exponent n of the size in the mass finer [-].", examples=[0.5]
+    )
 
 
 class SingleGrading(_Sizes):
     """One size."""
 
     form: Literal["single"]
-    value: Size
+    value: Size = Field(description="Size of all grains [unit].", examples=[1.0])
 
 
 class _Table(_Sizes):
-    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
-    min: Size | None = None
-    max: Size | None = None
+    file: FileName
+    min: Size | None = Field(None, description="Smallest size, if it is to be cut there [unit].")
+    max: Size | None = Field(None, description="Largest size, if it is to be cut there [unit].")
 
     @field_validator("max")
     @classmethod
@@ -143,23 +170,23 @@ class SieveGrading(_Table):
     """Percent finer by mass at the openings of sieves, from a file."""
 
     form: Literal["sieve"]
-    size: Literal["diameter"]
-    basis: Literal["mass"]
+    size: Annotated[Literal["diameter"], _SIZES_ARE]
+    basis: OfMass
 
 
 class DensityGrading(_Table):
     """A density at some sizes, from a file."""
 
     form: Literal["density"]
-    basis: Literal["number", "mass"]
+    basis: Basis
 
 
 class RadiiGrading(_Sizes):
     """The sizes of single grains, from a file."""
 
     form: Literal["radii"]
-    basis: Literal["number"]
-    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
+    basis: OfNumber
+    file: FileName
 
 
 _Simple = (
@@ -181,8 +208,10 @@ SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
 class Component(Section):
     """One part of a mixture."""
 
-    weight: Positive
-    grading: SimpleGrading
+    weight: Positive = Field(
+        description="Its part, by number or by mass, over the sum of all weights [-].", examples=[1]
+    )
+    grading: SimpleGrading = Field(description="Sizes of its grains: any form but a mixture.")
 
 
 _SEVERAL = "must be a list of 2 or more, each with a weight and a grading"
@@ -192,8 +221,11 @@ class MixtureGrading(Section):
     """Other gradings in parts by number or by mass."""
 
     form: Literal["mixture"]
-    basis: Literal["number", "mass"]
-    components: list[Component] = Field(description=_SEVERAL)
+    basis: Annotated[Literal["number", "mass"], _WEIGHTS_ARE]
+    components: Annotated[list[Component], Allowed(_SEVERAL)] = Field(
+        description="Two or more gradings, each with its weight.",
+        json_schema_extra={"minItems": 2},
+    )
 
     @field_validator("components", mode="before")
     @classmethod

@@ -169,9 +169,9 @@ def _allowed(kind):
     """Return what a key that is not there must hold."""
     union, *extras = typing.get_args(kind)
     for extra in extras:
-        allowed = getattr(getattr(extra, "func", None), "allowed", None)
-        if allowed or getattr(extra, "description", None):
-            return allowed or extra.description
+        allowed = getattr(getattr(extra, "func", extra), "allowed", None)
+        if allowed:
+            return allowed
     if typing.get_origin(union) is typing.Literal:
         return _one_of(typing.get_args(union))
     return _A_SECTION if _forms(kind) or hasattr(union, "model_fields") else "give it a value"
