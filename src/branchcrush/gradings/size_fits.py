@@ -1,0 +1,174 @@
+"""Curves through a few sizes, such as D10, D50 and D90, where no table of the grading is known.
+
+Both curves are straight lines in the logarithm of size, so that least squares have a closed form.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from statistics import NormalDist
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from branchcrush.errors import GradingError
+
+# Farther from a given size than this, a curve is none through it: by a quarter, or by a factor 1.25.
+LARGEST_MISFIT = 0.25
+# Of the grading below `min` and above `max` in the advice of where to cut it.
+_ADVISED_TAIL = 0.01
+
+
+@dataclass(frozen=True)
+class SizeFit:
+    """A lognormal or Weibull curve through a few sizes, of the whole curve before it is cut."""
+
+    curve: Literal["lognormal", "weibull"]
+    centre: float  # median of the lognormal, scale of the Weibull, in the unit of the sizes
+    width: float  # geometric standard deviation of the first, shape of the second [-]
+    percents: tuple[float, ...]  # x of each D_x [%]
+    given: tuple[float, ...]  # D_x as given
+    fitted: tuple[float, ...]  # D_x of the curve
+
+    @property
+    def misfits(self) -> tuple[float, ...]:
+        """What each size of the curve is above the given one, over the given one [-]."""
+        pairs = zip(self.fitted, self.given, strict=True)
+        return tuple(fitted / given - 1.0 for fitted, given in pairs)
+
+    @property
+    def root_mean_square(self) -> float:
+        """Root mean square of the misfits in the logarithm of size [-]."""
+        logs = np.log(self.fitted) - np.log(self.given)
+        return float(np.sqrt(np.mean(logs**2)))
+
+    @property
+    def advised_ends(self) -> tuple[float, float]:
+        """Sizes that 1 % and 99 % are finer than: where the curve may be cut."""
+        low, high = self.sizes([100.0 * _ADVISED_TAIL, 100.0 * (1.0 - _ADVISED_TAIL)])
+        return float(low), float(high)
+
+    def sizes(self, percents: ArrayLike) -> NDArray:
+        r"""Return the sizes that a percentage of the whole curve is finer than.
+
+        .. math:: D_x = \tilde D\, \sigma_g^{z_x}, \qquad
+            D_x = D_s \left(-\ln(1 - x/100)\right)^{1/m}
+
+        Parameters
+        ----------
+        percents : array_like, shape (n,)
+            x, between 0 and 100 [%].
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            In the unit of the sizes.
+
+        Examples
+        --------
+        >>> fit = fit_sizes("lognormal", {50.0: 2.0, 90.0: 4.0})
+        >>> fit.sizes([10.0, 50.0]).round(9).tolist()
+        [1.0, 2.0]
+        """
+        slope = np.log(self.width) if self.curve == "lognormal" else 1.0 / self.width
+        return self.centre * np.exp(slope * _abscissa(self.curve, percents))
+
+    def report(self) -> dict[str, object]:
+        """Return the curve, its parameters and what it misses, as plain values.
+
+        Returns
+        -------
+        dict
+            curve, centre, width; by D_x the size given, that of the curve, and the misfit [%];
+            root_mean_square_misfit_percent.
+
+        Examples
+        --------
+        >>> fit_sizes("weibull", {10.0: 1.0, 90.0: 3.0}).report()["misfit_percent"]
+        {'D10': 0.0, 'D90': 0.0}
+        """
+        names = [f"D{percent:g}" for percent in self.percents]
+        # Two sizes are met exactly: what rounding leaves is no misfit.
+        misfits = [round(100.0 * misfit, 9) + 0.0 for misfit in self.misfits]
+        return {
+            "curve": self.curve,
+            "centre": self.centre,
+            "width": self.width,
+            "given": dict(zip(names, self.given, strict=True)),
+            "of_the_curve": dict(zip(names, self.fitted, strict=True)),
+            "misfit_percent": dict(zip(names, misfits, strict=True)),
+            "root_mean_square_misfit_percent": round(100.0 * self.root_mean_square, 9),
+        }
+
+
+def fit_sizes(curve: Literal["lognormal", "weibull"], sizes: Mapping[float, float]) -> SizeFit:
+    r"""Return the curve nearest to a few sizes, by least squares in their logarithm.
+
+    .. math:: \ln D_x = \ln \tilde D + z_x \ln \sigma_g, \qquad
+        \ln D_x = \ln D_s + \frac{1}{m} \ln\left(-\ln(1 - x/100)\right)
+
+    z_x is the quantile of the standard normal distribution. Two sizes are met exactly.
+
+    Parameters
+    ----------
+    curve : {"lognormal", "weibull"}
+    sizes : mapping of float to float
+        By x, between 0 and 100 [%], the size D_x that x percent are finer than, of any unit.
+
+    Returns
+    -------
+    SizeFit
+
+    Raises
+    ------
+    GradingError
+        When there are fewer than two sizes, when they do not grow with x, or when the curve misses
+        one by more than a quarter of it.
+
+    Examples
+    --------
+    >>> fit = fit_sizes("lognormal", {10.0: 82.0, 50.0: 200.0, 90.0: 486.0})
+    >>> round(fit.centre, 1), round(fit.width, 3)
+    (199.8, 2.002)
+    >>> [f"{misfit:.1%}" for misfit in fit.misfits]
+    ['0.1%', '-0.1%', '0.1%']
+
+    References
+    ----------
+    Rosin and Rammler (1933), J. Inst. Fuel 7, 29-36, for the second curve.
+    """
+    percents = tuple(sorted(sizes))
+    given = tuple(float(sizes[percent]) for percent in percents)
+    named = ", ".join(f"D{x:g} = {size:g}" for x, size in zip(percents, given, strict=True))
+    if len(given) < 2:
+        raise GradingError(f"a curve needs two sizes or more of D10, D50 and D90, not {named}")
+    if not (given[0] > 0 and np.all(np.diff(given) > 0) and np.isfinite(given[-1])):
+        raise GradingError(f"sizes must be above 0 and grow with their percentage, not {named}")
+    abscissa, logs = _abscissa(curve, percents), np.log(given)
+    across = abscissa - abscissa.mean()
+    slope = float(across @ logs / (across @ across))
+    centre = float(np.exp(logs.mean() - slope * abscissa.mean()))
+    width = float(np.exp(slope)) if curve == "lognormal" else 1.0 / slope
+    fit = SizeFit(curve, centre, width, percents, given, ())
+    fit = SizeFit(curve, centre, width, percents, given, tuple(fit.sizes(percents).tolist()))
+    farthest = np.abs(np.log(fit.fitted) - logs)
+    if farthest.max() > np.log1p(LARGEST_MISFIT):
+        curves = ", ".join(
+            f"D{x:g} = {size:.3g}" for x, size in zip(percents, fit.fitted, strict=True)
+        )
+        raise GradingError(
+            f"no {curve} curve passes near these sizes: given {named}, of the nearest one {curves} "
+            f"(at most {LARGEST_MISFIT:.0%} apart); check them, try the other of lognormal and "
+            "weibull, leave one out, or give the whole curve as form: sieve"
+        )
+    return fit
+
+
+def _abscissa(curve: str, percents: ArrayLike) -> NDArray:
+    """Return what the logarithm of size is a straight line of."""
+    share = np.asarray(percents, dtype=float) / 100.0
+    if curve == "lognormal":
+        return np.array([NormalDist().inv_cdf(x) for x in share])
+    if curve == "weibull":
+        return np.log(-np.log1p(-share))
+    raise GradingError(f"a curve through sizes is lognormal or weibull, not {curve!r}")
