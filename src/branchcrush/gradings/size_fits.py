@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import GradingError
 
-# Farther from a given size than this, a curve is none through it: by a quarter, or by a factor 1.25.
+# Farther from a given size than this, by a factor 1.25, a curve is none through it.
 LARGEST_MISFIT = 0.25
 # Of the grading below `min` and above `max` in the advice of where to cut it.
 _ADVISED_TAIL = 0.01
