@@ -1,11 +1,11 @@
 """The configuration of a grading: one section for each form, each with its size, unit and basis."""
 
-import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, ValidationInfo, field_validator
 
+from branchcrush.config.curves import check_curve, check_share
 from branchcrush.config.fields import Positive, Section, number, refusal
 from branchcrush.config.units import UNITS
 
@@ -70,38 +70,64 @@ class NormalGrading(_Range):
     @classmethod
     def _within(cls, width: float, info: ValidationInfo) -> float:
         unit = info.data.get("unit", "")
-        _check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
+        check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
         return width
 
 
-class LognormalGrading(_Range):
+class _SizesOfCurve(_Sizes):
+    min: Size | None = None
+    max: Size | None = None
+    # D10, D50 and D90, as radii where sizes are radii.
+    d10: Length | None = None
+    d50: Length | None = None
+    d90: Length | None = None
+
+    @field_validator("max")
+    @classmethod
+    def _ordered(cls, largest: float | None, info: ValidationInfo) -> float | None:
+        return _above_min(largest, info.data)
+
+    @field_validator("d50", "d90")
+    @classmethod
+    def _growing(cls, size: float | None, info: ValidationInfo) -> float | None:
+        unit = info.data.get("unit")
+        for below in ("d10", "d50"):
+            finer = info.data.get(below)
+            if size is not None and finer is not None and not size > finer:
+                raise refusal(f"must be above {below} {finer:g} {unit or ''}".rstrip(), unit=unit)
+        return size
+
+
+class LognormalGrading(_SizesOfCurve):
     """The normal distribution of the logarithm of size, cut at min and max."""
 
     form: Literal["lognormal"]
     basis: Literal["number", "mass"]
-    median: Length
-    geometric_standard_deviation: number(above=1, most=1000)
+    median: Length | None = None
+    # The last key is checked when all others are known, also where it is left out.
+    geometric_standard_deviation: Annotated[
+        number(above=1, most=1000) | None, Field(validate_default=True)
+    ] = None
 
     @field_validator("geometric_standard_deviation")
     @classmethod
-    def _within(cls, width: float, info: ValidationInfo) -> float:
-        s = math.log(width)
-        _check_share("lognorm", info.data, "median", lambda median: {"s": s, "scale": median})
+    def _complete(cls, width: float | None, info: ValidationInfo) -> float | None:
+        check_curve("lognormal", {**info.data, "geometric_standard_deviation": width})
         return width
 
 
-class WeibullGrading(_Range):
+class WeibullGrading(_SizesOfCurve):
     """The Weibull distribution, by mass that of Rosin and Rammler, cut at min and max."""
 
     form: Literal["weibull"]
     basis: Literal["number", "mass"]
-    scale: Length
-    shape: number(above=0, most=1000)
+    scale: Length | None = None
+    shape: Annotated[number(above=0, most=1000) | None, Field(validate_default=True)] = None
 
     @field_validator("shape")
     @classmethod
-    def _within(cls, shape: float, info: ValidationInfo) -> float:
-        _check_share("weibull_min", info.data, "scale", lambda scale: {"c": shape, "scale": scale})
+    def _complete(cls, shape: float | None, info: ValidationInfo) -> float | None:
+        check_curve("weibull", {**info.data, "shape": shape})
         return shape
 
 
@@ -235,23 +261,3 @@ def _above_min(largest, data):
     if largest is not None and smallest is not None and smallest >= largest:
         raise refusal(f"must be above min {smallest:g} {unit or ''}".rstrip(), unit=unit)
     return largest
-
-
-def _check_share(distribution, data, centre, parameters, unit_of_width=""):
-    """Refuse a distribution that hardly reaches between min and max, if these are known."""
-    if not {"min", "max", "unit", centre} <= set(data):
-        return
-    # Every job reads the configuration; few of them need what SciPy takes seconds to import.
-    from scipy import stats
-
-    from branchcrush.gradings.truncation import LEAST_SHARE, share_within
-
-    low, high, at, unit = data["min"], data["max"], data[centre], data["unit"]
-    share = share_within(getattr(stats, distribution)(**parameters(at)), low, high)
-    if not share >= LEAST_SHARE:
-        raise refusal(
-            f"with {centre} {at:g} {unit} only {share:.2g} of the distribution lies between min "
-            f"{low:g} {unit} and max {high:g} {unit}; at least {LEAST_SHARE:g} must: move them or "
-            "check the unit",
-            unit=unit_of_width,
-        )

@@ -11,9 +11,10 @@ from pydantic import (
     ValidationError,
     ValidationInfo,
     field_validator,
+    model_validator,
 )
 
-from branchcrush.config.fields import Fraction, Number, Section, number, refusal
+from branchcrush.config.fields import Fraction, Number, NumberOrNone, Section, number, refusal
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
 from branchcrush.config.stresses import increasing_stresses
@@ -31,6 +32,7 @@ REFINED = "-refined"
 _DENSEST = 1.2
 _TARGETS = (*STRAIN_TARGETS, "mean_stress")
 _MOST_SEEDS = 1000
+_GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _LONGEST_NAME = 100
 # Files and folders of results that no sample may be called.
@@ -128,8 +130,10 @@ class Sample(Section):
     """A grading, a boundary and a loading, run with several seeds."""
 
     grading: GradingSection
-    sampling: Literal["random", "number_quantiles", "mass_quantiles"] = "random"
-    grains: number(int, least=2, most=10_000_000)
+    # A list of grains is taken as it is unless something else is asked for.
+    sampling: Literal["random", "number_quantiles", "mass_quantiles", "listed"] = "random"
+    # None for as many as a list has.
+    grains: Annotated[int | None, BeforeValidator(_GRAINS)]
     allow_unrepresentative: StrictBool = False
     boundary: Literal["walls", "periodic"] = "walls"
     initial_solid_fraction: number(above=0, most=0.4) = 0.16
@@ -138,6 +142,29 @@ class Sample(Section):
     seeds: list[number(int, least=0, most=2**32 - 1)] = Field(description=_SEEDS.allowed)
     refined_seeds: number(int, least=0, most=_MOST_SEEDS) = 4
     ranks: number(int, least=1, most=1024, unit="processes") = 1
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_listed(cls, sample: Any) -> Any:
+        if _is_list_of_grains(sample):
+            return {"sampling": "listed", "grains": None, **sample}
+        return sample
+
+    @field_validator("sampling")
+    @classmethod
+    def _of_a_list(cls, sampling: str, info: ValidationInfo) -> str:
+        grading = info.data.get("grading")
+        if sampling == "listed" and grading is not None and grading.form != "radii":
+            raise refusal("takes the grains of a list as they are: it belongs to form: radii")
+        return sampling
+
+    @field_validator("grains")
+    @classmethod
+    def _known(cls, grains: int | None, info: ValidationInfo) -> int | None:
+        grading = info.data.get("grading")
+        if grains is None and grading is not None and grading.form != "radii":
+            raise refusal(_GRAINS.allowed)
+        return grains
 
     @field_validator("loading")
     @classmethod
@@ -195,14 +222,22 @@ class Sample(Section):
             As `config.build.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
+        values = self.model_dump(exclude_none=True) | {"grains": self.grains}
         return {
-            **self.model_dump(exclude_none=True),
+            # In the order of the keys, whichever of them were given.
+            **{key: values[key] for key in type(self).model_fields},
             "loading": self.loading.plain(),
             "strain_step": strain_step(self.loading.quality, refinement),
             "state_tolerance": STATE_TOLERANCES[self.loading.quality],
             "quality": self.loading.quality,
             "seeds": seeds,
         }
+
+
+def _is_list_of_grains(sample):
+    """Return whether a sample, checked or not, has a list of the sizes of its grains."""
+    grading = sample.get("grading") if isinstance(sample, dict) else None
+    return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
 class EnergySplit(Section):

@@ -5,14 +5,17 @@ Both curves are straight lines in the logarithm of size, so that least squares h
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from statistics import NormalDist
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import GradingError
 
+# What each curve is known by: its centre, and its width.
+CURVES = {"lognormal": ("median", "geometric_standard_deviation"), "weibull": ("scale", "shape")}
+# Sizes that it may be laid through, and how many percent are finer.
+D_VALUES = {"d10": 10.0, "d50": 50.0, "d90": 90.0}
 # Farther from a given size than this, by a factor 1.25, a curve is none through it.
 LARGEST_MISFIT = 0.25
 # Of the grading below `min` and above `max` in the advice of where to cut it.
@@ -74,30 +77,29 @@ class SizeFit:
         return self.centre * np.exp(slope * _abscissa(self.curve, percents))
 
     def report(self) -> dict[str, object]:
-        """Return the curve, its parameters and what it misses, as plain values.
+        """Return what `grading.json` says of a curve through diameters in metres.
 
         Returns
         -------
         dict
-            curve, centre, width; by D_x the size given, that of the curve, and the misfit [%];
-            root_mean_square_misfit_percent.
+            curve; median_m and geometric_standard_deviation, or scale_m and shape; given_m,
+            of_the_curve_m and misfit_percent by D_x; root_mean_square_misfit_percent.
 
         Examples
         --------
-        >>> fit_sizes("weibull", {10.0: 1.0, 90.0: 3.0}).report()["misfit_percent"]
+        >>> fit_sizes("weibull", {10.0: 1e-3, 90.0: 3e-3}).report()["misfit_percent"]
         {'D10': 0.0, 'D90': 0.0}
         """
         names = [f"D{percent:g}" for percent in self.percents]
-        # Two sizes are met exactly: what rounding leaves is no misfit.
-        misfits = [round(100.0 * misfit, 9) + 0.0 for misfit in self.misfits]
+        lognormal = self.curve == "lognormal"
         return {
             "curve": self.curve,
-            "centre": self.centre,
-            "width": self.width,
-            "given": dict(zip(names, self.given, strict=True)),
-            "of_the_curve": dict(zip(names, self.fitted, strict=True)),
-            "misfit_percent": dict(zip(names, misfits, strict=True)),
-            "root_mean_square_misfit_percent": round(100.0 * self.root_mean_square, 9),
+            "median_m" if lognormal else "scale_m": self.centre,
+            "geometric_standard_deviation" if lognormal else "shape": self.width,
+            "given_m": dict(zip(names, self.given, strict=True)),
+            "of_the_curve_m": dict(zip(names, self.fitted, strict=True)),
+            "misfit_percent": dict(zip(names, map(_in_percent, self.misfits), strict=True)),
+            "root_mean_square_misfit_percent": _in_percent(self.root_mean_square),
         }
 
 
@@ -164,11 +166,51 @@ def fit_sizes(curve: Literal["lognormal", "weibull"], sizes: Mapping[float, floa
     return fit
 
 
+def curve_of(curve: Literal["lognormal", "weibull"], parameters: Mapping[str, Any]) -> SizeFit:
+    """Return the curve of its centre and width, or through sizes, as they are called.
+
+    Parameters
+    ----------
+    curve : {"lognormal", "weibull"}
+    parameters : mapping
+        With median and geometric_standard_deviation, or d50 in place of the first; with scale and
+        shape; or with two or three of d10, d50 and d90; sizes of any unit. One may be None.
+
+    Returns
+    -------
+    SizeFit
+        In the unit of the sizes; where centre and width are given, with no sizes to miss.
+
+    Raises
+    ------
+    GradingError
+        When no such curve passes near the sizes.
+
+    Examples
+    --------
+    >>> curve = curve_of("lognormal", {"d50": 2.0, "geometric_standard_deviation": 1.5})
+    >>> curve.centre, curve.width, curve.given
+    (2.0, 1.5, ())
+    """
+    centre, width = (parameters.get(key) for key in CURVES[curve])
+    if width is not None:
+        return SizeFit(curve, parameters["d50"] if centre is None else centre, width, (), (), ())
+    sizes = {D_VALUES[key]: parameters[key] for key in D_VALUES if parameters.get(key) is not None}
+    return fit_sizes(curve, sizes)
+
+
 def _abscissa(curve: str, percents: ArrayLike) -> NDArray:
     """Return what the logarithm of size is a straight line of."""
     share = np.asarray(percents, dtype=float) / 100.0
     if curve == "lognormal":
+        from statistics import NormalDist  # every reading of a configuration would wait for it
+
         return np.array([NormalDist().inv_cdf(x) for x in share])
     if curve == "weibull":
         return np.log(-np.log1p(-share))
     raise GradingError(f"a curve through sizes is lognormal or weibull, not {curve!r}")
+
+
+def _in_percent(share: float) -> float:
+    # Two sizes are met exactly: what rounding leaves is no misfit, nor is -0.
+    return round(100.0 * share, 9) + 0.0
