@@ -66,9 +66,7 @@ def grading_report(section: Mapping[str, Any]) -> GradingReport:
     from branchcrush.config.gradings import GradingSection
     from branchcrush.config.units import UNITS
 
-    plain = (
-        TypeAdapter(GradingSection).validate_python(dict(section)).model_dump(exclude_none=True)
-    )
+    plain = TypeAdapter(GradingSection).validate_python(dict(section)).model_dump(exclude_none=True)
     grading = grading_of(plain)
     unit = plain.get("unit", "mm")
     sizes = 2 * grading.mass_ppf([share / 100 for share in SHARES]) / UNITS[unit]

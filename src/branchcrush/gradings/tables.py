@@ -1,4 +1,4 @@
-"""Gradings from tables: a sieve curve, or a density at a few radii."""
+"""Gradings from tables: a sieve curve, channels, or a density at a few radii."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -70,15 +70,53 @@ def from_percent_finer(
             f"the curve is {percent[0]:g} percent throughout: give it a second value"
         )
     radius, percent = radius[first : last + 1], percent[first : last + 1]
-    from scipy.interpolate import PchipInterpolator  # slow to import, for sieve tables alone
+    return _smooth(radius, percent / 100, radius_min, radius_max, "mass")
 
-    slope = PchipInterpolator(np.log(radius), percent / 100).derivative()
 
-    def density_by_mass(r: NDArray) -> NDArray:
-        # A level part must not come out below 0 by rounding.
-        return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
+def from_histogram(
+    edges: ArrayLike,
+    shares: ArrayLike,
+    by: str,
+    radius_min: float | None = None,
+    radius_max: float | None = None,
+) -> Grading:
+    r"""Return the grading of channels, each with its share of the grains.
 
-    return _between(density_by_mass, radius, radius_min, radius_max, "mass")
+    .. math:: F(R_k) = \sum_{i < k} s_i / \sum_i s_i
+
+    Between the edges F is the monotone cubic of `from_percent_finer`, by number or by mass.
+
+    Parameters
+    ----------
+    edges : array_like, shape (n + 1,)
+        Increasing radii that channels begin and end at [m].
+    shares : array_like, shape (n,)
+        Not negative, of any scale: percent, counts, masses.
+    by : {"number", "mass"}
+    radius_min, radius_max : float, optional
+        Grains below the one and above the other are left out [m].
+
+    Returns
+    -------
+    Grading
+
+    Raises
+    ------
+    GradingError
+        When these are no channels, or nothing is left between the two radii.
+
+    Examples
+    --------
+    >>> from_histogram([1.0, 2.0, 4.0], [30.0, 30.0], "mass").mass_ppf(0.5).round(9).item()
+    2.0
+    """
+    edges, shares = np.asarray(edges, dtype=float), np.asarray(shares, dtype=float)
+    if shares.ndim != 1 or np.any(shares < 0) or not np.isfinite(shares).all() or not shares.sum():
+        raise GradingError("channels must hold 0 or more each, and one of them more")
+    edges, finer = _columns(edges, np.append(0.0, np.cumsum(shares)))
+    held = np.flatnonzero(shares)
+    first, last = held[0], held[-1] + 2
+    return _smooth(edges[first:last], (finer / finer[-1])[first:last], radius_min, radius_max, by)
 
 
 def from_density(
@@ -87,20 +125,25 @@ def from_density(
     by: str,
     radius_min: float | None = None,
     radius_max: float | None = None,
+    per: str = "size",
 ) -> Grading:
     r"""Return the grading whose density is drawn straight from point to point.
 
-    .. math:: P(R) \propto P_k + (P_{k+1} - P_k) \frac{R - R_k}{R_{k+1} - R_k}
+    .. math:: P(R) \propto P_k + (P_{k+1} - P_k) \frac{x - x_k}{x_{k+1} - x_k} \frac{dx}{dR}
+
+    x is R, or ln R for a density per logarithm of size or per phi, which differ by a factor.
 
     Parameters
     ----------
     radius : array_like, shape (n,)
         Increasing [m].
     density : array_like, shape (n,)
-        Not negative, of any scale [1/m].
+        Not negative, of any scale [1/m, or - per logarithm].
     by : {"number", "mass"}
     radius_min, radius_max : float, optional
         Grains below the one and above the other are left out [m].
+    per : {"size", "log_size", "phi"}
+        What the density is taken per.
 
     Returns
     -------
@@ -122,7 +165,30 @@ def from_density(
     held = np.flatnonzero(density > 0)
     first, last = max(held[0] - 1, 0), min(held[-1] + 1, radius.size - 1)
     radius, density = radius[first : last + 1], density[first : last + 1]
-    return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
+    if per == "size":
+        return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
+    places = np.log(radius)
+    return _between(
+        lambda r: np.interp(np.log(r), places, density) / r, radius, radius_min, radius_max, by
+    )
+
+
+def _smooth(
+    radius: NDArray,
+    finer: NDArray,
+    radius_min: float | None,
+    radius_max: float | None,
+    by: str,
+) -> Grading:
+    from scipy.interpolate import PchipInterpolator  # slow to import, for tables alone
+
+    slope = PchipInterpolator(np.log(radius), finer).derivative()
+
+    def density(r: NDArray) -> NDArray:
+        # A level part must not come out below 0 by rounding.
+        return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
+
+    return _between(density, radius, radius_min, radius_max, by)
 
 
 def _between(
