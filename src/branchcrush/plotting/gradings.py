@@ -7,7 +7,7 @@ from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes
 
 
-def plot_grading(grading: Table, ax: Axes | None = None) -> Axes:
+def plot_grading(grading: Table, ax: Axes | None = None, seeds: str = "all seeds") -> Axes:
     """Draw the sieve curve and the distribution by number: target and realised (Fig. 3).
 
     The ultimate grading is drawn as well if the table has it.
@@ -17,6 +17,8 @@ def plot_grading(grading: Table, ax: Axes | None = None) -> Axes:
     grading : DataFrame
         `grading.csv`.
     ax : Axes, optional
+    seeds : str
+        Whose grains are drawn: "all seeds" as a band about their mean, or a single one as a curve.
 
     Returns
     -------
@@ -26,9 +28,11 @@ def plot_grading(grading: Table, ax: Axes | None = None) -> Axes:
     unit, scale = ("mm", 1e3) if grading["diameter_m"].max() >= 1e-4 else ("µm", 1e6)
     diameter = grading["diameter_m"] * scale
     low, high = (grading[f"percent_finer_by_mass_realised_{end}"] for end in ("min", "max"))
-    ax.fill_between(diameter, low, high, color=MEASURED, alpha=0.2, lw=0, label="all seeds")
+    if seeds == "all seeds":
+        ax.fill_between(diameter, low, high, color=MEASURED, alpha=0.2, lw=0, label=seeds)
+        seeds = "mean of seeds"
     for name, label, line, color in (
-        ("by_mass_realised", "by mass, mean of seeds", "-", MEASURED),
+        ("by_mass_realised", f"by mass, {seeds}", "-", MEASURED),
         ("by_mass_target", "by mass, target", "--", MODEL),
         ("by_mass_ultimate", "by mass, ultimate", "-.", OTHER),
         ("by_number_target", "by number, target", ":", FAINT),
