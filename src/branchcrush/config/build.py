@@ -8,7 +8,13 @@ import numpy as np
 
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
-from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
+from branchcrush.files.declared import Declared
+from branchcrush.files.grading_tables import (
+    read_density_table,
+    read_histogram,
+    read_radii,
+    read_sieve_table,
+)
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.forms import (
     fractal,
@@ -22,7 +28,7 @@ from branchcrush.gradings.forms import (
 from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.narrower import narrower_range
 from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
-from branchcrush.gradings.tables import from_density, from_percent_finer
+from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import contact_law
@@ -64,12 +70,17 @@ class GradingValues:
         """Return the size at a key as a radius [m]."""
         return self[key] * self.to_radius
 
+    @property
+    def basis(self) -> str:
+        """What values count: grains of one density have the volume of their mass."""
+        return "mass" if self["basis"] == "volume" else self["basis"]
+
     def table(self, read: Callable) -> tuple[np.ndarray, np.ndarray, list[float | None]]:
         """Return the radii of the file [m], its other column, and where it is cut [m], if it is."""
+        table = read(self["file"], Declared.of(self.section))
         ends = [self.section.get(key) for key in ("min", "max")]
-        size, other = read(self["file"], *ends)
         cut = [None if end is None else end * self.to_radius for end in ends]
-        return size * self.to_radius, other, cut
+        return table.sizes * self.to_radius, table.values, cut
 
 
 def _sieve(values: GradingValues) -> Grading:
@@ -79,7 +90,14 @@ def _sieve(values: GradingValues) -> Grading:
 
 def _density(values: GradingValues) -> Grading:
     radius, density, cut = values.table(read_density_table)
-    return from_density(radius, density, values["basis"], *cut)
+    per = values.section.get("per") or "size"
+    return from_density(radius, density, values.basis, *cut, per=per)
+
+
+def _histogram(values: GradingValues) -> Grading:
+    edges, shares, cut = values.table(read_histogram)
+    scale = values.section.get("scale") or "log"
+    return from_histogram(edges, shares, values.basis, *cut, scale=scale)
 
 
 def _mixture(values: GradingValues) -> Grading:
@@ -103,6 +121,7 @@ FORMS: dict[str, Callable[[GradingValues], Grading]] = {
     "single": lambda values: single(values.radius("value")),
     "sieve": _sieve,
     "density": _density,
+    "histogram": _histogram,
     "radii": lambda values: from_radii(read_radii(values["file"]) * values.to_radius),
     "mixture": _mixture,
 }

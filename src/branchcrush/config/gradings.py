@@ -3,10 +3,16 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    ValidationInfo,
+    field_validator,
+)
 
 from branchcrush.config.curves import check_curve, check_share
 from branchcrush.config.fields import Positive, Section, number, refusal
+from branchcrush.config.table_keys import DensityKeys, FileKeys, HistogramKeys, SieveKeys
 from branchcrush.config.units import UNITS
 
 # Of a grain [m]. Outside of them it is the unit that is wrong.
@@ -31,7 +37,7 @@ Size = Annotated[Length, AfterValidator(_possible)]
 class _Sizes(Section):
     # Never guessed: either slip is a factor 2, or 1000, in every size.
     size: Literal["radius", "diameter"]
-    unit: Literal["m", "mm", "um"]
+    unit: Literal["m", "cm", "mm", "um", "inch"]
 
 
 class _Range(_Sizes):
@@ -165,19 +171,26 @@ class _Table(_Sizes):
         return _above_min(largest, info.data)
 
 
-class SieveGrading(_Table):
-    """Percent finer by mass at the openings of sieves, from a file."""
+class SieveGrading(FileKeys, SieveKeys, _Table):
+    """What sieves let pass or retain, by mass, from a file."""
 
     form: Literal["sieve"]
     size: Literal["diameter"]
     basis: Literal["mass"]
 
 
-class DensityGrading(_Table):
+class DensityGrading(FileKeys, DensityKeys, _Table):
     """A density at some sizes, from a file."""
 
     form: Literal["density"]
-    basis: Literal["number", "mass"]
+    basis: Literal["number", "mass", "volume"]
+
+
+class HistogramGrading(FileKeys, HistogramKeys, _Table):
+    """Percent, counts or masses in channels of size, from a file."""
+
+    form: Literal["histogram"]
+    basis: Literal["number", "mass", "volume"]
 
 
 class RadiiGrading(_Sizes):
@@ -199,6 +212,7 @@ _Simple = (
     | SingleGrading
     | SieveGrading
     | DensityGrading
+    | HistogramGrading
     | RadiiGrading
 )
 SimpleGrading = Annotated[_Simple, Field(discriminator="form")]

@@ -40,7 +40,7 @@ def density_rows(table: Table, declared: Declared) -> tuple[list[Row], list[str]
     >>> [row.values for row in density_rows(table, Declared())[0]]
     [(1.0, 3.0), (2.0, 1.0)]
     """
-    rows, totals, problems = _rows(table, declared, "density")
+    rows, _, problems = _rows(table, declared, "density")
     if len(rows) < 2 and not problems:
         where = f"line {rows[0].line}: one row" if rows else "line 1: no row"
         problems.append(f"{where} of numbers; must be two or more different ones: add the rest")
@@ -282,7 +282,7 @@ def _histogram_readings(sizes, values, declared):
         keys = Declared(sizes=kind, scale=scale, unit=declared.unit)
         edges, shares, _, wrong = edges_of_channels(rows, keys)
         if not wrong:
-            median = 2 * from_histogram(np.array(edges) / 2, shares, basis).mass_ppf(0.5)
+            median = from_histogram(edges, shares, basis, scale=scale).mass_ppf(0.5)
             read.append(
                 f"`form: histogram, sizes: {kind}, scale: {scale}` D50 = {float(median):.3g} "
                 f"{declared.unit}"

@@ -119,7 +119,10 @@ def read_table(
             problems.append(f"line {number}: {wrong}")
         elif chosen:
             rows.append(TextRow(number, chosen))
-    return Table(rows, heads, title, sheet_read.remarks, problems)
+    remarks = list(sheet_read.remarks)
+    if any(heads):
+        remarks.append("the columns are " + " and ".join(f'"{name}"' for name in heads))
+    return Table(rows, heads, title, remarks, problems)
 
 
 def _empty_columns(lines):

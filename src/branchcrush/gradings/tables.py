@@ -70,7 +70,15 @@ def from_percent_finer(
             f"the curve is {percent[0]:g} percent throughout: give it a second value"
         )
     radius, percent = radius[first : last + 1], percent[first : last + 1]
-    return _smooth(radius, percent / 100, radius_min, radius_max, "mass")
+    from scipy.interpolate import PchipInterpolator  # slow to import, for sieve tables alone
+
+    slope = PchipInterpolator(np.log(radius), percent / 100).derivative()
+
+    def density_by_mass(r: NDArray) -> NDArray:
+        # A level part must not come out below 0 by rounding.
+        return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
+
+    return _between(density_by_mass, radius, radius_min, radius_max, "mass")
 
 
 def from_histogram(
@@ -79,12 +87,14 @@ def from_histogram(
     by: str,
     radius_min: float | None = None,
     radius_max: float | None = None,
+    scale: str = "log",
 ) -> Grading:
-    r"""Return the grading of channels, each with its share of the grains.
+    r"""Return the grading of channels, each with its share of the grains spread evenly in it.
 
-    .. math:: F(R_k) = \sum_{i < k} s_i / \sum_i s_i
+    .. math:: P(R) = \frac{s_i}{\sum_j s_j} \frac{1}{R \ln(R_{i+1} / R_i)}
 
-    Between the edges F is the monotone cubic of `from_percent_finer`, by number or by mass.
+    from one edge to the next; on a linear scale 1/(R_{i+1} - R_i) takes the place of the second
+    fraction.
 
     Parameters
     ----------
@@ -95,6 +105,8 @@ def from_histogram(
     by : {"number", "mass"}
     radius_min, radius_max : float, optional
         Grains below the one and above the other are left out [m].
+    scale : {"log", "linear"}
+        Over what grains are spread evenly within a channel.
 
     Returns
     -------
@@ -107,16 +119,23 @@ def from_histogram(
 
     Examples
     --------
-    >>> from_histogram([1.0, 2.0, 4.0], [30.0, 30.0], "mass").mass_ppf(0.5).round(9).item()
-    2.0
+    >>> from_histogram([1.0, 2.0, 4.0], [30.0, 30.0], "mass").mass_ppf(0.25).round(9).item()
+    1.414213562
     """
     edges, shares = np.asarray(edges, dtype=float), np.asarray(shares, dtype=float)
-    if shares.ndim != 1 or np.any(shares < 0) or not np.isfinite(shares).all() or not shares.sum():
+    usable = shares.ndim == 1 and np.isfinite(shares).all() and np.all(shares >= 0)
+    if not (usable and np.any(shares > 0)):
         raise GradingError("channels must hold 0 or more each, and one of them more")
-    edges, finer = _columns(edges, np.append(0.0, np.cumsum(shares)))
+    edges, _ = _columns(edges, np.append(0.0, shares))
     held = np.flatnonzero(shares)
-    first, last = held[0], held[-1] + 2
-    return _smooth(edges[first:last], (finer / finer[-1])[first:last], radius_min, radius_max, by)
+    edges, shares = edges[held[0] : held[-1] + 2], shares[held[0] : held[-1] + 1]
+    heights = shares / np.diff(edges if scale == "linear" else np.log(edges))
+
+    def density(r: NDArray) -> NDArray:
+        place = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, heights.size - 1)
+        return heights[place] if scale == "linear" else heights[place] / r
+
+    return _between(density, edges, radius_min, radius_max, by)
 
 
 def from_density(
@@ -171,24 +190,6 @@ def from_density(
     return _between(
         lambda r: np.interp(np.log(r), places, density) / r, radius, radius_min, radius_max, by
     )
-
-
-def _smooth(
-    radius: NDArray,
-    finer: NDArray,
-    radius_min: float | None,
-    radius_max: float | None,
-    by: str,
-) -> Grading:
-    from scipy.interpolate import PchipInterpolator  # slow to import, for tables alone
-
-    slope = PchipInterpolator(np.log(radius), finer).derivative()
-
-    def density(r: NDArray) -> NDArray:
-        # A level part must not come out below 0 by rounding.
-        return np.maximum(slope(np.log(np.clip(r, radius[0], radius[-1]))), 0.0) / r
-
-    return _between(density, radius, radius_min, radius_max, by)
 
 
 def _between(
