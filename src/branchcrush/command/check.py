@@ -60,7 +60,9 @@ def check(place: str) -> int:
     if study is None:
         return 1
     for name, sample in study.samples.items():
-        grains = "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
+        grains = (
+            "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
+        )
         print(f"{name}: {sample.grading.form}, {grains}, {len(sample.seeds)} packings")
     print("sound: snakemake --cores 2 runs it, branchcrush preview tells what it will be")
     return 0

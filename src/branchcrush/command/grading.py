@@ -2,20 +2,20 @@
 
 import sys
 from collections.abc import Mapping, Sequence
-from os import PathLike
 from typing import Any
 
 import numpy as np
 
 from branchcrush.config.reading import GradingReport, grading_report
+from branchcrush.config.units import UNITS
 
 
-def section_of(file: str, given: Mapping[str, Any]) -> dict[str, Any]:
+def section_of(file: str | None, given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the section of a grading for a file and what is declared of it.
 
     Parameters
     ----------
-    file : str
+    file : str or None
     given : mapping
         Keys of the section; those that are None were not given.
 
@@ -33,18 +33,24 @@ def section_of(file: str, given: Mapping[str, Any]) -> dict[str, Any]:
     implied = {
         "sieve": {"basis": "mass", "size": "diameter"},
         "radii": {"basis": "number"},
+        "fractal": {"basis": "number"},
+        "fuller": {"basis": "mass"},
     }.get(declared["form"], {})
     merged = {"form": declared["form"], **implied, **declared, "file": file}
+    if file is None:
+        merged.pop("file")
     order = ["form", "basis", "size", "unit", "file"]
     return {key: merged[key] for key in [*order, *(set(merged) - set(order))] if key in merged}
 
 
-def grading(file: str, given: Mapping[str, Any], picture: str | None, width: int = 72) -> int:
+def grading(
+    file: str | None, given: Mapping[str, Any], picture: str | None, width: int = 72
+) -> int:
     """Print how a table is read, its sizes, a sketch of its curve, and the lines to paste.
 
     Parameters
     ----------
-    file : str
+    file : str or None
     given : mapping
         As for `section_of`.
     picture : str or None
@@ -60,13 +66,21 @@ def grading(file: str, given: Mapping[str, Any], picture: str | None, width: int
     section = section_of(file, given)
     report = grading_report(section)
     if report.problems:
-        print("\n".join(report.problems), file=sys.stderr)
+        print("\n".join(f"error: {line}" for line in report.problems), file=sys.stderr)
         return 1
     print(report_text(report))
-    table = _table(section)
-    print(sketch(table["diameter_m"], table["percent_finer_by_mass_target"], report.unit, width))
+    low, high = report.grading.support()
+    radius = np.geomspace(low, high, 10 * width)
+    print(sketch(2.0 * radius, 100.0 * report.grading.mass_cdf(radius), report.unit, width))
     if picture is not None:
-        _draw(picture, table)
+        from branchcrush.plotting.packing_figures import draw_sieve_curve  # slow to import
+
+        curves = {
+            "diameter_m": 2.0 * radius,
+            "percent_finer_by_mass_target": 100.0 * report.grading.mass_cdf(radius),
+            "percent_finer_by_number_target": 100.0 * report.grading.number_cdf(radius),
+        }
+        draw_sieve_curve(picture, 200, curves)
         print(f"picture: {picture}")
     if report.config_lines:
         print("to paste below a sample:")
@@ -129,8 +143,6 @@ def sketch(
       0 |*
          1 ... 4 mm
     """
-    from branchcrush.config.units import UNITS
-
     columns = max(width - 5, 10)
     logs = np.log(np.asarray(diameter, dtype=float))
     at = np.interp(np.linspace(logs[0], logs[-1], columns), logs, percent)
@@ -140,19 +152,6 @@ def sketch(
         label = f"{100.0 * row / (height - 1):3.0f}"
         marks = "".join("*" if there == row else " " for there in rows).rstrip()
         lines.append(f"{label} |{marks}")
-    low, high = (f"{end / UNITS[unit]:.3g}" for end in (diameter[0], diameter[-1]))
+    low, high = (f"{float(f'{end / UNITS[unit]:.3g}'):g}" for end in (diameter[0], diameter[-1]))
     axis = f"{low}{f'{high} {unit}':>{max(columns - len(low), 1)}}"
     return "\n".join([*lines, f"    +{'-' * columns}", f"     {axis}"])
-
-
-def _table(section: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """Return the curves of the grading of a section that is sound."""
-    from pydantic import TypeAdapter  # noqa: F401
-
-    raise NotImplementedError
-
-
-def _draw(picture: str | PathLike[str], table: Mapping[str, np.ndarray]) -> None:
-    from branchcrush.plotting.packing_figures import draw_grading
-
-    draw_grading(picture, 200, table)

@@ -7,7 +7,7 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from branchcrush.config.build import grading_of
+from branchcrush.config.build import grading_of, size_fits
 from branchcrush.config.fields import Section
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
@@ -20,6 +20,7 @@ from branchcrush.files.grading_tables import (
     read_radii,
     read_sieve_table,
 )
+from branchcrush.gradings.distribution import Grading
 
 # Percent of the mass that is finer.
 SHARES = (10, 30, 50, 60, 90)
@@ -77,6 +78,8 @@ class GradingReport:
         What is to be mended or said, with the keys to paste; empty if the grading is read.
     config_lines : list of str
         The section as YAML, to be pasted below a sample, with every key that a default filled.
+    grading : Grading or None
+        What it makes; None if there are problems.
 
     Examples
     --------
@@ -90,6 +93,7 @@ class GradingReport:
     warnings: list[str] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     config_lines: list[str] = field(default_factory=list)
+    grading: Grading | None = None
 
 
 def grading_report(section: Mapping[str, Any]) -> GradingReport:
@@ -131,6 +135,7 @@ def grading_report(section: Mapping[str, Any]) -> GradingReport:
         unit=unit,
         warnings=_warnings(plain),
         config_lines=_config_lines(plain),
+        grading=grading,
     )
 
 
@@ -153,6 +158,8 @@ def _meaning(plain):
         lines = [f"sizes: {sizes}, in {unit}", f"values: the share or {_counts(plain)} of each"]
     elif form == "radii":
         lines = [f"sizes: the {plain['size']} of each grain, in {unit}"]
+    elif fits := size_fits(plain):
+        return [fit.words(unit, UNITS[unit]) for fit in fits.values()]
     else:
         return []
     if declared.columns:

@@ -76,6 +76,39 @@ class SizeFit:
         slope = np.log(self.width) if self.curve == "lognormal" else 1.0 / self.width
         return self.centre * np.exp(slope * _abscissa(self.curve, percents))
 
+    def words(self, unit: str, metres: float) -> str:
+        """Return a curve through diameters in metres, and what it misses, for a person.
+
+        Parameters
+        ----------
+        unit : str
+            Name of the unit.
+        metres : float
+            That it has [m].
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> fit_sizes("lognormal", {10.0: 1e-3, 90.0: 4e-3}).words("mm", 1e-3)
+        'lognormal, median 2 mm, geometric standard deviation 1.72; before it is cut D10 1 for 1
+         (+0.0 %), D90 4 for 4 (+0.0 %)'
+        """
+        names = {"lognormal": ("median", "geometric standard deviation")}
+        centre, width = names.get(self.curve, ("scale", "shape"))
+        sizes = ", ".join(
+            f"D{percent:g} {fitted / metres:.4g} for {given / metres:.4g} ({100 * missed:+.1f} %)"
+            for percent, fitted, given, missed in zip(
+                self.percents, self.fitted, self.given, map(_rounded, self.misfits), strict=True
+            )
+        )
+        return (
+            f"{self.curve}, {centre} {self.centre / metres:.4g} {unit}, {width} {self.width:.3g}; "
+            f"before it is cut {sizes}"
+        )
+
     def report(self) -> dict[str, object]:
         """Return what `grading.json` says of a curve through diameters in metres.
 
@@ -98,8 +131,10 @@ class SizeFit:
             "geometric_standard_deviation" if lognormal else "shape": self.width,
             "given_m": dict(zip(names, self.given, strict=True)),
             "of_the_curve_m": dict(zip(names, self.fitted, strict=True)),
-            "misfit_percent": dict(zip(names, map(_in_percent, self.misfits), strict=True)),
-            "root_mean_square_misfit_percent": _in_percent(self.root_mean_square),
+            "misfit_percent": dict(
+                zip(names, (100.0 * miss for miss in map(_rounded, self.misfits)), strict=True)
+            ),
+            "root_mean_square_misfit_percent": 100.0 * _rounded(self.root_mean_square),
         }
 
 
@@ -211,6 +246,6 @@ def _abscissa(curve: str, percents: ArrayLike) -> NDArray:
     raise GradingError(f"a curve through sizes is lognormal or weibull, not {curve!r}")
 
 
-def _in_percent(share: float) -> float:
+def _rounded(share: float) -> float:
     # Two sizes are met exactly: what rounding leaves is no misfit, nor is -0.
-    return round(100.0 * share, 9) + 0.0
+    return round(share, 11) + 0.0

@@ -39,6 +39,26 @@ def draw_grading(path: Path, dpi: int, grading: Table, seeds: str = "all seeds")
     return ax.figure
 
 
+def draw_sieve_curve(path: Path, dpi: int, grading: Mapping[str, NDArray]) -> Figure:
+    """Draw a grading by mass and by number without grains drawn from it, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    grading : mapping of ndarray
+        As `gradings.curves.grading_table`; of it the diameter and the target.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        gradings.plot_sieve_curve(grading, ax)
+    return ax.figure
+
+
 def draw_packing(
     path: Path,
     dpi: int,

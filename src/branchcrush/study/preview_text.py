@@ -178,24 +178,8 @@ def _coarse(plan: Plan) -> str:
 
 def _fits(plan: Plan) -> list[str]:
     """Return each curve through a few sizes, with what it misses."""
-    unit, metres = plan.unit
-    texts = []
-    for key, fit in plan.fits.items():
-        centre, width = f"{_number(fit.centre / metres)} {unit}", _number(fit.width)
-        parameters = (
-            f"median {centre}, geometric standard deviation {width}"
-            if fit.curve == "lognormal"
-            else f"scale {centre}, shape {width}"
-        )
-        sizes = ", ".join(
-            f"D{percent:g} {_number(fitted / metres)} for {_number(given / metres)} ({miss:+.1%})"
-            for percent, fitted, given, miss in zip(
-                fit.percents, fit.fitted, fit.given, fit.misfits, strict=True
-            )
-        ).replace("%", " %")
-        part = "" if key == "grading" else f"{key}: "
-        texts.append(f"{part}{fit.curve}, diameters: {parameters}; before it is cut {sizes}")
-    return texts
+    parts = {key: "" if key == "grading" else f"{key}: " for key in plan.fits}
+    return [f"{parts[key]}{fit.words(*plan.unit)}" for key, fit in plan.fits.items()]
 
 
 def _box(plan: Plan) -> str:
@@ -218,8 +202,8 @@ def _loading(plan: Plan) -> str:
             f"from {loading.approach_solid_fraction:g} on{back}"
         )
     return (
-        f"{_states(len(stresses))} at mean stress {_stresses(stresses)}{back}; overlaps at the last "
-        f"about {100.0 * plan.overlap:.2g} % of the radius"
+        f"{_states(len(stresses))} at mean stress {_stresses(stresses)}{back}; overlaps at the "
+        f"last about {100.0 * plan.overlap:.2g} % of the radius"
     )
 
 
