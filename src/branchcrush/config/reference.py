@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from branchcrush.errors import ConfigError
 
 _BEGIN, _END = "<!-- made from config.schema.json: {} -->", "<!-- end -->"
+_NOTHING = {"type": "null"}
 # A sentence, and perhaps a unit before its full stop.
 _DESCRIPTION = re.compile(r"(.*?)(?: \[([^\]]+)\])?\.?", re.DOTALL)
 
@@ -172,7 +173,9 @@ def _allowed(name, value):
         return f"see {name}"
     if "anyOf" in value:
         # Text that spells a number says no more than the number, and nothing is what is left out.
-        kinds = [kind for kind in value["anyOf"] if kind.get("type") not in ("string", "null")]
+        kinds = [
+            kind for kind in value["anyOf"] if not ({"pattern"} & kind.keys() or kind == _NOTHING)
+        ]
         return ", or ".join(filter(None, (_allowed(name, kind) for kind in kinds)))
     if "const" in value:
         return f"`{value['const']}`"
