@@ -32,7 +32,7 @@ run: $(READY) ## the study of config.yaml: results/, its figures and the exponen
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
 
 preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
-	@$(IN_ENVIRONMENT) snakemake --cores $(CORES) --quiet all -- preview
+	@$(BIN)/branchcrush preview --cores $(CORES)
 
 example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \

@@ -1,5 +1,7 @@
 """branchcrush: from a grading to the energy split of its branches and the crushing model."""
 
+import sys
+
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
@@ -16,11 +18,21 @@ if "samples" not in config:  # none was named on the command line
     configfile: "config.yaml"
 
 
+def only_previewed():
+    """Return whether nothing but a preview is asked for, which shows grains that are too few."""
+    if "preview" not in sys.argv:
+        return False
+    # Snakemake itself tells its targets only after it has read this file.
+    from snakemake.cli import get_argument_parser
+
+    return get_argument_parser().parse_known_args(sys.argv[1:])[0].targets == ["preview"]
+
+
 try:
     if workflow.is_main_process:
         from branchcrush.config.checks import checked_study
 
-        SETTINGS = checked_study(config)
+        SETTINGS = checked_study(config, few_grains=only_previewed())
     else:  # a job of a study that was checked
         SETTINGS = checked_config(config)
 except ConfigError as error:

@@ -13,6 +13,7 @@ from pydantic import (
 )
 
 from branchcrush.config.fields import Fraction, Section, number, refusal
+from branchcrush.config.schema_parts import given
 from branchcrush.config.stresses import STRESSES, increasing_stresses
 from branchcrush.loading.targets import STRAIN_TARGETS
 
@@ -21,13 +22,8 @@ DENSEST = 1.2
 _TARGETS = (*STRAIN_TARGETS, "mean_stress")
 
 
-def _given(*keys):
-    """Return the JSON schema of a section in which keys have a value."""
-    return {"required": list(keys), "properties": {key: {"not": {"type": "null"}} for key in keys}}
-
-
-_ONE_TARGET = [_given(target) for target in _TARGETS]
-_STATES_AT_STRESSES = _given("mean_stress", "states")
+_ONE_TARGET = [given(target) for target in _TARGETS]
+_STATES_AT_STRESSES = given("mean_stress", "states")
 
 
 class LinearContact(Section):

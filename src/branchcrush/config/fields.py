@@ -140,6 +140,39 @@ class Number:
         )
 
 
+class NumberOrNone(Number):
+    """Reads a number within bounds, or nothing where that has a meaning of its own.
+
+    Examples
+    --------
+    >>> NumberOrNone(least=2)(None, None) is None
+    True
+    """
+
+    def __call__(self, value: Any, info: ValidationInfo) -> float | None:
+        """Return the number, or None for None: as `Number`.
+
+        Parameters
+        ----------
+        value : object
+        info : pydantic.ValidationInfo
+
+        Returns
+        -------
+        float, int or None
+
+        Raises
+        ------
+        PydanticCustomError
+            From `refusal`.
+        """
+        return None if value is None else super().__call__(value, info)
+
+    def json_schema(self) -> dict[str, Any]:
+        """Return the JSON schema of a number, a text that spells one, or nothing."""
+        return {"anyOf": [*super().json_schema()["anyOf"], {"type": "null"}]}
+
+
 def number_of(value: Any) -> float | None:
     """Return the finite number that a value of the YAML file is or spells, or None.
 

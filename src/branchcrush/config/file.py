@@ -2,8 +2,11 @@
 
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import yaml
+
+from branchcrush.errors import ConfigError
 
 
 class _Loader(yaml.SafeLoader):
@@ -66,6 +69,33 @@ def config_file_problem(path: str | PathLike[str]) -> str | None:
     if not isinstance(content, dict) or "samples" not in content:
         return f"config: {path} must hold keys and values, and among them samples"
     return None
+
+
+def config_file_content(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return what a configuration file holds.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ConfigError
+        From `config_file_problem`.
+
+    Examples
+    --------
+    >>> config_file_content("nowhere.yaml")
+    Traceback (most recent call last):
+    branchcrush.errors.ConfigError: config: there is no file nowhere.yaml in ...
+    """
+    if problem := config_file_problem(path):
+        raise ConfigError(problem)
+    return yaml.load(Path(path).read_text(encoding="utf-8-sig"), Loader=_Loader)
 
 
 def _contains_itself(content, above=()):

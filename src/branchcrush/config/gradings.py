@@ -1,12 +1,27 @@
 """The configuration of a grading: one section for each form, each with its size, unit and basis."""
 
-import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    ValidationInfo,
+    field_validator,
+)
 
+from branchcrush.config.curves import check_curve, check_share
 from branchcrush.config.fields import Allowed, Positive, Section, number, refusal
+from branchcrush.config.grading_keys import (
+    SIZES_ARE,
+    WEIGHTS_ARE,
+    Basis,
+    BasisOfFile,
+    FileName,
+    OfMass,
+    OfNumber,
+)
+from branchcrush.config.table_keys import DensityKeys, FileKeys, HistogramKeys, SieveKeys
 from branchcrush.config.units import UNITS
 
 # Of a grain [m]. Outside of them it is the unit that is wrong.
@@ -27,27 +42,11 @@ def _possible(size, info):
 Length = number(above=0, unit_of="unit")
 Size = Annotated[Length, AfterValidator(_possible)]
 
-_FORM_TELLS = Field(description="What the form tells of: the number of grains, or their mass.")
-_WEIGHTS_ARE = Field(description="What the weights are of: the number of grains, or their mass.")
-_SIZES_ARE = Field(description="What sizes are: of a grain its radius or its diameter.")
-Basis = Annotated[Literal["number", "mass"], _FORM_TELLS]
-OfNumber = Annotated[Literal["number"], _FORM_TELLS]
-OfMass = Annotated[Literal["mass"], _FORM_TELLS]
-FileName = Annotated[
-    str,
-    Allowed("must be the name of a file"),
-    Field(
-        min_length=1,
-        description="Name of the file, relative to the folder that the study runs in.",
-        examples=["sand.csv"],
-    ),
-]
-
 
 class _Sizes(Section):
     # Never guessed: either slip is a factor 2, or 1000, in every size.
-    size: Annotated[Literal["radius", "diameter"], _SIZES_ARE]
-    unit: Literal["m", "mm", "um"] = Field(description="Unit of the sizes.")
+    size: Annotated[Literal["radius", "diameter"], SIZES_ARE]
+    unit: Literal["m", "cm", "mm", "um", "inch"] = Field(description="Unit of the sizes.")
 
 
 class _Range(_Sizes):
@@ -88,45 +87,72 @@ class NormalGrading(_Range):
     @classmethod
     def _within(cls, width: float, info: ValidationInfo) -> float:
         unit = info.data.get("unit", "")
-        _check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
+        check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
         return width
 
 
-class LognormalGrading(_Range):
+class _SizesOfCurve(_Sizes):
+    min: Size | None = Field(None, description="Smallest size of a grain [unit].")
+    max: Size | None = Field(None, description="Largest size of a grain [unit].")
+    # D10, D50 and D90, as radii where sizes are radii.
+    d10: Length | None = Field(None, description="Size that 10 % are finer than [unit].")
+    d50: Length | None = Field(None, description="Size that 50 % are finer than [unit].")
+    d90: Length | None = Field(None, description="Size that 90 % are finer than [unit].")
+
+    @field_validator("max")
+    @classmethod
+    def _ordered(cls, largest: float | None, info: ValidationInfo) -> float | None:
+        return _above_min(largest, info.data)
+
+    @field_validator("d50", "d90")
+    @classmethod
+    def _growing(cls, size: float | None, info: ValidationInfo) -> float | None:
+        unit = info.data.get("unit")
+        for below in ("d10", "d50"):
+            finer = info.data.get(below)
+            if size is not None and finer is not None and not size > finer:
+                raise refusal(f"must be above {below} {finer:g} {unit or ''}".rstrip(), unit=unit)
+        return size
+
+
+class LognormalGrading(_SizesOfCurve):
     """The normal distribution of the logarithm of size, cut at min and max."""
 
     form: Literal["lognormal"]
     basis: Basis
-    median: Length = Field(description="Median of the distribution [unit].", examples=[0.1])
-    geometric_standard_deviation: number(above=1, most=1000) = Field(
+    median: Length | None = Field(None, description="Median of the distribution [unit].")
+    # The last key is checked when all others are known, also where it is left out.
+    geometric_standard_deviation: number(above=1, most=1000) | None = Field(
+        None,
+        validate_default=True,
         description="Exponential of the standard deviation of the logarithm of size [-].",
-        examples=[1.4],
     )
 
     @field_validator("geometric_standard_deviation")
     @classmethod
-    def _within(cls, width: float, info: ValidationInfo) -> float:
-        s = math.log(width)
-        _check_share("lognorm", info.data, "median", lambda median: {"s": s, "scale": median})
+    def _complete(cls, width: float | None, info: ValidationInfo) -> float | None:
+        check_curve("lognormal", {**info.data, "geometric_standard_deviation": width})
         return width
 
 
-class WeibullGrading(_Range):
+class WeibullGrading(_SizesOfCurve):
     """The Weibull distribution, by mass that of Rosin and Rammler, cut at min and max."""
 
     form: Literal["weibull"]
     basis: Basis
-    scale: Length = Field(
-        description="Size that a share of 1/e, 37 %, exceeds [unit].", examples=[0.5]
+    scale: Length | None = Field(
+        None, description="Size that a share of 1/e, 37 %, exceeds [unit]."
     )
-    shape: number(above=0, most=1000) = Field(
-        description="Exponent of size over scale; the larger, the narrower [-].", examples=[2.0]
+    shape: number(above=0, most=1000) | None = Field(
+        None,
+        validate_default=True,
+        description="Exponent of size over scale; the larger, the narrower [-].",
     )
 
     @field_validator("shape")
     @classmethod
-    def _within(cls, shape: float, info: ValidationInfo) -> float:
-        _check_share("weibull_min", info.data, "scale", lambda scale: {"c": shape, "scale": scale})
+    def _complete(cls, shape: float | None, info: ValidationInfo) -> float | None:
+        check_curve("weibull", {**info.data, "shape": shape})
         return shape
 
 
@@ -166,19 +192,26 @@ class _Table(_Sizes):
         return _above_min(largest, info.data)
 
 
-class SieveGrading(_Table):
-    """Percent finer by mass at the openings of sieves, from a file."""
+class SieveGrading(FileKeys, SieveKeys, _Table):
+    """What sieves let pass or retain, by mass, from a file."""
 
     form: Literal["sieve"]
-    size: Annotated[Literal["diameter"], _SIZES_ARE]
+    size: Annotated[Literal["diameter"], SIZES_ARE]
     basis: OfMass
 
 
-class DensityGrading(_Table):
+class DensityGrading(FileKeys, DensityKeys, _Table):
     """A density at some sizes, from a file."""
 
     form: Literal["density"]
-    basis: Basis
+    basis: BasisOfFile
+
+
+class HistogramGrading(FileKeys, HistogramKeys, _Table):
+    """Percent, counts or masses in channels of size, from a file."""
+
+    form: Literal["histogram"]
+    basis: BasisOfFile
 
 
 class RadiiGrading(_Sizes):
@@ -200,6 +233,7 @@ _Simple = (
     | SingleGrading
     | SieveGrading
     | DensityGrading
+    | HistogramGrading
     | RadiiGrading
 )
 SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
@@ -221,7 +255,7 @@ class MixtureGrading(Section):
     """Other gradings in parts by number or by mass."""
 
     form: Literal["mixture"]
-    basis: Annotated[Literal["number", "mass"], _WEIGHTS_ARE]
+    basis: Annotated[Literal["number", "mass"], WEIGHTS_ARE]
     components: Annotated[list[Component], Allowed(_SEVERAL)] = Field(
         description="Two or more gradings, each with its weight.",
         json_schema_extra={"minItems": 2},
@@ -267,23 +301,3 @@ def _above_min(largest, data):
     if largest is not None and smallest is not None and smallest >= largest:
         raise refusal(f"must be above min {smallest:g} {unit or ''}".rstrip(), unit=unit)
     return largest
-
-
-def _check_share(distribution, data, centre, parameters, unit_of_width=""):
-    """Refuse a distribution that hardly reaches between min and max, if these are known."""
-    if not {"min", "max", "unit", centre} <= set(data):
-        return
-    # Every job reads the configuration; few of them need what SciPy takes seconds to import.
-    from scipy import stats
-
-    from branchcrush.gradings.truncation import LEAST_SHARE, share_within
-
-    low, high, at, unit = data["min"], data["max"], data[centre], data["unit"]
-    share = share_within(getattr(stats, distribution)(**parameters(at)), low, high)
-    if not share >= LEAST_SHARE:
-        raise refusal(
-            f"with {centre} {at:g} {unit} only {share:.2g} of the distribution lies between min "
-            f"{low:g} {unit} and max {high:g} {unit}; at least {LEAST_SHARE:g} must: move them or "
-            "check the unit",
-            unit=unit_of_width,
-        )

@@ -178,8 +178,11 @@ def _allowed(kind):
 
 
 def _words(kind):
-    """Return the words that a key may hold."""
-    return typing.get_args(typing.get_args(kind)[0])
+    """Return the words that a key may hold; of one that may be left out, too."""
+    union = typing.get_args(kind)[0]
+    if typing.get_origin(union) in (typing.Union, types.UnionType):
+        union = next(each for each in typing.get_args(union) if typing.get_args(each))
+    return typing.get_args(union)
 
 
 def _one_of(words, value=None):

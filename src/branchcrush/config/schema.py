@@ -13,13 +13,22 @@ from pydantic import (
     ValidationInfo,
     WithJsonSchema,
     field_validator,
+    model_validator,
 )
 
 from branchcrush.config.compression import DENSEST, Contact, LinearContact, Loading
 from branchcrush.config.evaluation import EnergySplit, Figures, Thermodynamics
-from branchcrush.config.fields import Allowed, Number, Section, number, refusal
+from branchcrush.config.fields import (
+    Allowed,
+    Number,
+    NumberOrNone,
+    Section,
+    number,
+    refusal,
+)
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
+from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
     STATE_TOLERANCES,
@@ -30,21 +39,10 @@ from branchcrush.loading.targets import (
 # Ends the name of a sample run with twice the strain steps, to judge its convergence.
 REFINED = "-refined"
 _MOST_SEEDS = 1000
+_GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
-_A_SEED = Number(least=0, most=2**32 - 1, whole=True)
 _SEEDS_SCHEMA = WithJsonSchema(
-    {
-        "anyOf": [
-            *_SEEDS.json_schema()["anyOf"],
-            {
-                "type": "array",
-                "items": _A_SEED.json_schema(),
-                "minItems": 1,
-                "maxItems": _MOST_SEEDS,
-                "uniqueItems": True,
-            },
-        ]
-    }
+    number_or_list(_SEEDS, Number(least=0, most=2**32 - 1, whole=True), _MOST_SEEDS)
 )
 _LONGEST_NAME = 100
 _NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
@@ -63,15 +61,27 @@ _TAKEN = (
 )
 
 
+# In a schema: a list of grains has a number of them.
+_A_LIST = {"properties": {"grading": {"properties": {"form": {"const": "radii"}}}}}
+
+
 class Sample(Section):
     """A grading, a boundary and a loading, run with several seeds."""
 
+    model_config = ConfigDict(json_schema_extra=required_unless("grains", _A_LIST))
+
     grading: GradingSection = Field(description="Sizes of the grains.")
-    sampling: Literal["random", "number_quantiles", "mass_quantiles"] = Field(
-        "random", description="How sizes are taken from the grading."
+    sampling: Literal["random", "number_quantiles", "mass_quantiles", "listed"] = Field(
+        "random",
+        description="How sizes are taken from the grading; a list of grains is taken as it is, "
+        "listed, unless something else is asked for.",
     )
-    grains: number(int, least=2, most=10_000_000) = Field(
-        description="Number of grains, N.", examples=[1000]
+    # None for as many as a list has.
+    grains: Annotated[
+        int | None, BeforeValidator(_GRAINS), WithJsonSchema(_GRAINS.json_schema())
+    ] = Field(
+        description="Number of grains, N; of a list as many as it has, if left out.",
+        examples=[1000],
     )
     allow_unrepresentative: StrictBool = Field(
         False, description="Run with too few grains, which the report will repeat."
@@ -100,6 +110,29 @@ class Sample(Section):
         description="MPI processes that share each packing, no more than there are cores; pays for "
         "large packings only. A change alone computes nothing again.",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_listed(cls, sample: Any) -> Any:
+        if _is_list_of_grains(sample):
+            return {"sampling": "listed", "grains": None, **sample}
+        return sample
+
+    @field_validator("sampling")
+    @classmethod
+    def _of_a_list(cls, sampling: str, info: ValidationInfo) -> str:
+        grading = info.data.get("grading")
+        if sampling == "listed" and grading is not None and grading.form != "radii":
+            raise refusal("takes the grains of a list as they are: it belongs to form: radii")
+        return sampling
+
+    @field_validator("grains")
+    @classmethod
+    def _known(cls, grains: int | None, info: ValidationInfo) -> int | None:
+        grading = info.data.get("grading")
+        if grains is None and grading is not None and grading.form != "radii":
+            raise refusal(_GRAINS.allowed)
+        return grains
 
     @field_validator("loading")
     @classmethod
@@ -157,14 +190,22 @@ class Sample(Section):
             As `config.build.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
+        values = self.model_dump(exclude_none=True) | {"grains": self.grains}
         return {
-            **self.model_dump(exclude_none=True),
+            # In the order of the keys, whichever of them were given.
+            **{key: values[key] for key in type(self).model_fields},
             "loading": self.loading.plain(),
             "strain_step": strain_step(self.loading.quality, refinement),
             "state_tolerance": STATE_TOLERANCES[self.loading.quality],
             "quality": self.loading.quality,
             "seeds": seeds,
         }
+
+
+def _is_list_of_grains(sample):
+    """Return whether a sample, checked or not, has a list of the sizes of its grains."""
+    grading = sample.get("grading") if isinstance(sample, dict) else None
+    return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
 def _usable_name(name):
@@ -198,32 +239,10 @@ def _not_empty(samples):
     return samples
 
 
-_EXAMPLE = {
-    "samples": {
-        "sand": {
-            "grading": {
-                "form": "lognormal",
-                "basis": "mass",
-                "size": "diameter",
-                "unit": "mm",
-                "median": 0.5,
-                "geometric_standard_deviation": 1.3,
-                "min": 0.25,
-                "max": 1.0,
-            },
-            "grains": 1200,
-            "boundary": "periodic",
-            "loading": {"solid_fraction": 0.78, "approach_solid_fraction": 0.6},
-            "seeds": 4,
-        }
-    }
-}
-
-
 class Config(Section):
     """The whole configuration."""
 
-    model_config = ConfigDict(json_schema_extra={"examples": [_EXAMPLE]})
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
 
     samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)] = Field(
         description="One or more samples by names of your own; results go to results/<name>.",

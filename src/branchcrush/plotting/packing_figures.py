@@ -17,7 +17,7 @@ from branchcrush.samples.ensemble import end_of_loading
 Path = str | os.PathLike
 
 
-def draw_grading(path: Path, dpi: int, grading: Table) -> Figure:
+def draw_grading(path: Path, dpi: int, grading: Table, seeds: str = "all seeds") -> Figure:
     """Draw Fig. 3, the grading, and return it.
 
     Parameters
@@ -27,13 +27,35 @@ def draw_grading(path: Path, dpi: int, grading: Table) -> Figure:
     dpi : int
     grading : DataFrame
         `grading.csv`.
+    seeds : str
+        As for `plotting.gradings.plot_grading`.
 
     Returns
     -------
     Figure
     """
     with figure(path, dpi) as ax:
-        gradings.plot_grading(grading, ax)
+        gradings.plot_grading(grading, ax, seeds)
+    return ax.figure
+
+
+def draw_sieve_curve(path: Path, dpi: int, grading: Mapping[str, NDArray]) -> Figure:
+    """Draw a grading by mass and by number without grains drawn from it, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    grading : mapping of ndarray
+        As `gradings.curves.grading_table`; of it the diameter and the target.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        gradings.plot_sieve_curve(grading, ax)
     return ax.figure
 
 

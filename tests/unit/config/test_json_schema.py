@@ -146,6 +146,8 @@ def test_all_shipped_configurations_are_looked_at():
     assert len(SHIPPED) >= 7
 
 
+SIEVES = {"form": "sieve", "basis": "mass", "size": "diameter", "file": "a.csv"}
+LIST = {"form": "radii", "basis": "number", "size": "radius", "unit": "mm", "file": "a.txt"}
 ACCEPTED = [
     ("grains", "1e3"),
     ("grains", 1000.0),
@@ -165,23 +167,23 @@ ACCEPTED = [
     ("grading", SINGLE),
     ("grading", {"form": "mixture", "basis": "mass", "components": [PART, PART]}),
     ("grading.min", ".1"),
-    (
-        "grading",
-        {
-            "form": "sieve",
-            "basis": "mass",
-            "size": "diameter",
-            "unit": "um",
-            "file": "a.csv",
-            "min": None,
-        },
-    ),
+    ("grading", {**SIEVES, "unit": "um", "min": None}),
+    ("grading", {**SIEVES, "openings": "phi", "columns": ["phi", 3], "sheet": 1}),
+    ("grading", {**SIEVES, "unit": "inch", "columns": {"opening": 2, "value": "retained"}}),
+    ("grading", LIST),
 ]
 
 
 @pytest.mark.parametrize(("key", "value"), ACCEPTED)
 def test_what_a_study_accepts_is_valid(key, value, accepts):
     raw = config_with(f"samples.mine.{key}", value)
+    checked_config(raw)
+    assert accepts(raw)
+
+
+def test_a_list_of_grains_has_a_number_of_them(accepts):
+    raw = config_with("samples.mine.grading", LIST)
+    del raw["samples"]["mine"]["grains"]
     checked_config(raw)
     assert accepts(raw)
 
@@ -231,7 +233,11 @@ REFUSED = [
     ("samples.mine.grading.min", 0),
     ("samples.mine.grading.median", 1),
     ("samples.mine.grading", {"form": "mixture", "basis": "mass", "components": [PART]}),
-    ("samples.mine.grading", {**SINGLE, "form": "radii", "basis": "number", "file": ""}),
+    ("samples.mine.grading", {**LIST, "file": ""}),
+    ("samples.mine.grading", SIEVES),
+    ("samples.mine.grading", {**SIEVES, "unit": "mm", "columns": ["a"]}),
+    ("samples.mine.grading", {**SIEVES, "unit": "mm", "columns": {"from": 1, "to": 2}}),
+    ("samples.mine.grading", {**SIEVES, "unit": "mm", "sheet": 0}),
 ]
 
 
@@ -275,7 +281,7 @@ def test_a_table_says_what_a_key_is_its_unit_its_default_and_what_is_allowed():
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines()]
     table = {row[0]: row[1:] for row in rows if len(row) == 5}
     assert table["`figures.dpi`"][1:] == ["dots per inch", "300", "50 to 1200"]
-    assert table["`samples.<name>.grains`"][1:] == ["", "required", "2 to 10000000"]
+    assert table["`samples.<name>.grains`"][1:] == ["", "", "2 to 10000000"]
     assert table["`samples.<name>.loading.edge_reduction`"][1:] == ["-", "", "between 0 and 1"]
     forms = {row[0]: row[1:] for row in rows if len(row) == 6}
     assert forms["`normal_stiffness`"][0] == "linear"

@@ -1,0 +1,24 @@
+"""Keys that several forms of a grading have, with what each means."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from branchcrush.config.fields import Allowed
+
+_FORM_TELLS = Field(description="What the form tells of: the number of grains, or their mass.")
+WEIGHTS_ARE = Field(description="What the weights are of: the number of grains, or their mass.")
+SIZES_ARE = Field(description="What sizes are: of a grain its radius or its diameter.")
+Basis = Annotated[Literal["number", "mass"], _FORM_TELLS]
+BasisOfFile = Annotated[Literal["number", "mass", "volume"], _FORM_TELLS]
+OfNumber = Annotated[Literal["number"], _FORM_TELLS]
+OfMass = Annotated[Literal["mass"], _FORM_TELLS]
+FileName = Annotated[
+    str,
+    Allowed("must be the name of a file"),
+    Field(
+        min_length=1,
+        description="Name of the file, relative to the folder that the study runs in.",
+        examples=["sand.csv"],
+    ),
+]
