@@ -137,11 +137,12 @@ def sketch(
 
     Examples
     --------
-    >>> print(sketch([1e-3, 2e-3, 4e-3], [0, 50, 100], "mm", 12, 3))
-    100 |     *
-     50 |  *
-      0 |*
-         1 ... 4 mm
+    >>> print(sketch([1e-3, 2e-3, 4e-3], [0, 50, 100], "mm", 16, 3))
+    100 |        ***
+     50 |   *****
+      0 |***
+        +-----------
+         1      4 mm
     """
     columns = max(width - 5, 10)
     logs = np.log(np.asarray(diameter, dtype=float))
