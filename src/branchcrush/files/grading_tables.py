@@ -72,9 +72,9 @@ def read_sieve_table(path: str | PathLike[str], declared: Declared | None = None
     """
     declared = declared or Declared()
     table = read_table(path, ("opening", NAMES[declared.kind]), declared.columns, declared.sheet)
-    refuse(path, contradictions(table, declared) + table.problems)
-    curve = sieve_curve(table, declared)
-    refuse(path, table.problems + curve.problems)
+    against, curve = contradictions(table, declared), sieve_curve(table, declared)
+    # What is wrong with a table that is something else says little.
+    refuse(path, table.problems + (against or curve.problems))
     rows = curve.rows
     refuse(path, _wrong_range(rows, declared))
     refuse(path, _wrong_ends(rows, declared))
