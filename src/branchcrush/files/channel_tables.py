@@ -78,7 +78,8 @@ def channel_edges(
                 [],
                 [],
                 [
-                    f"line {table.rows[0].line}: both edges of each channel are given: say sizes: edges"
+                    f"line {table.rows[0].line}: both edges of each channel are given: say "
+                    "sizes: edges"
                 ],
             )
         rows, totals, problems = _rows(pairs, declared, "value", edges=True)
