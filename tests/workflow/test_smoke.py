@@ -284,8 +284,21 @@ def test_a_preview_tells_what_the_study_will_be_each_time_it_is_asked(study):
         assert run.returncode == 0, run.stdout + run.stderr
         text = (study.folder / "results/preview.txt").read_text(encoding="utf-8")
         assert text in run.stdout
-        for part in ("tiny\n", "60, seeds 2", "force evaluations", "too few for this grading"):
-            assert part in text
+        assert text.startswith("tiny: 60 grains, 2 packings, 1 of them again with twice the")
+        whole = " ".join(text.split())
+        for part in ("by mass", "force evaluations a packing", "too few for this grading"):
+            assert part in whole
         assert (study.folder / "results/figures/tiny/preview.png").stat().st_size > 0
         (study.folder / "results/preview.txt").unlink()
     assert not (study.folder / "results/tiny").exists()
+
+
+def test_a_preview_is_made_of_grains_that_only_a_run_refuses(study):
+    study.configure(study.tiny.replace("    allow_unrepresentative: true\n", ""))
+    (problem,) = study.refused("--dry-run")
+    assert "samples.tiny.grains = 60" in problem and "allow_unrepresentative" in problem
+    run = study.snakemake("--quiet", "all", "--", "preview")
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert "the run refuses this" in " ".join(run.stdout.split())
+    # A run that is asked for as well is refused.
+    assert study.refused("--dry-run", "--", "preview", "all")

@@ -73,14 +73,14 @@ def grading(
     radius = np.geomspace(low, high, 10 * width)
     print(sketch(2.0 * radius, 100.0 * report.grading.mass_cdf(radius), report.unit, width))
     if picture is not None:
-        from branchcrush.plotting.packing_figures import draw_sieve_curve  # slow to import
+        from branchcrush.plotting.packing_figures import draw_preview  # slow to import
 
         curves = {
             "diameter_m": 2.0 * radius,
             "percent_finer_by_mass_target": 100.0 * report.grading.mass_cdf(radius),
             "percent_finer_by_number_target": 100.0 * report.grading.number_cdf(radius),
         }
-        draw_sieve_curve(picture, 200, curves)
+        draw_preview(picture, 200, curves, report.unit)
         print(f"picture: {picture}")
     if report.config_lines:
         print("to paste below a sample:")
@@ -137,11 +137,12 @@ def sketch(
 
     Examples
     --------
-    >>> print(sketch([1e-3, 2e-3, 4e-3], [0, 50, 100], "mm", 12, 3))
-    100 |     *
-     50 |  *
-      0 |*
-         1 ... 4 mm
+    >>> print(sketch([1e-3, 2e-3, 4e-3], [0, 50, 100], "mm", 16, 3))
+    100 |        ***
+     50 |   *****
+      0 |***
+        +-----------
+         1      4 mm
     """
     columns = max(width - 5, 10)
     logs = np.log(np.asarray(diameter, dtype=float))

@@ -17,7 +17,7 @@ from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.jobs import job
 from branchcrush.lammps.compression import trial
-from branchcrush.plotting.packing_figures import draw_grading
+from branchcrush.plotting.packing_figures import draw_preview
 from branchcrush.study.preview import sample_plan
 from branchcrush.study.preview_text import preview_text
 
@@ -68,13 +68,13 @@ def study_preview(
         radii = sampled_radii(sample.grading, sample.grains, sample.sampling, rng)
         ultimate = ultimate_grading(sample.grading, ultimate_alpha)
         table = grading_table(sample.grading, [radii], ultimate)
-        draw_grading(pictures[name], dpi, table, seeds=f"seed {sample.seeds[0]}")
+        unit, metres, size = unit_of(settings["grading"])
+        draw_preview(pictures[name], dpi, table, unit, f"seed {sample.seeds[0]}")
         seconds = math.nan
         try:
             seconds = trial(sample, rng, inputs=inputs, folder=Path(pictures[name]).parent, log=log)
         except BranchcrushError as error:  # of grains too few for any packing
             notes[name] = str(error).splitlines()[0]
-        unit, metres, size = unit_of(settings["grading"])
         plans[name] = sample_plan(
             sample,
             radii,

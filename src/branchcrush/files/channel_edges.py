@@ -162,8 +162,9 @@ def _beside(rows, sizes, values, declared):
             [],
             [
                 f"line {rows[place].line}: the channel at {first:g} {declared.unit} holds "
-                f"{values[place]:g}, and its {'upper' if lower else 'lower'} edge is not in the file: "
-                f"give the {what} grain ({key}), or scale: log or linear, if channels go on as they are"
+                f"{values[place]:g}, and its {'upper' if lower else 'lower'} edge is not in the "
+                f"file: give the {what} grain ({key}), or scale: log or linear, if channels go on "
+                "as they are"
             ],
         )
     edges = [*sizes, edge] if lower else [edge, *sizes]

@@ -1,23 +1,18 @@
-"""Channels and densities from the rows of a table, and whether its words and numbers are theirs."""
+"""Channels and densities from the rows of a table."""
 
 import math
 import re
-from collections.abc import Sequence
-from itertools import pairwise
-
-import numpy as np
 
 from branchcrush.errors import GradingError
-from branchcrush.files.channel_edges import edges_of_channels, regular
+from branchcrush.files.channel_edges import edges_of_channels
+from branchcrush.files.channel_readings import against_density, against_histogram
 from branchcrush.files.columns import Table
 from branchcrush.files.declared import Declared
-from branchcrush.files.openings import UNITS_IN_MM, label_of, size_of
+from branchcrush.files.openings import label_of, size_of
 from branchcrush.files.rows import Row
 from branchcrush.files.sieve_tables import value_of
-from branchcrush.gradings.tables import from_density, from_histogram
 
 _RANGE = re.compile(r"\s*(?P<low>[^\s].*?)\s*(?:-|–|—|\.\.|\bto\b|\bbis\b|/)\s*(?P<high>\d.*)")
-_SUM = 1.0
 
 
 def density_rows(table: Table, declared: Declared) -> tuple[list[Row], list[str]]:
@@ -48,7 +43,7 @@ def density_rows(table: Table, declared: Declared) -> tuple[list[Row], list[str]
         lines = sorted(row.line for row in rows)
         problems.append(f"lines {lines[0]} to {lines[-1]}: every density = 0; one must be above 0")
     if not problems:
-        problems = _against_density(table, declared, rows)
+        problems = against_density(table, declared, rows)
     return rows, problems
 
 
@@ -83,7 +78,8 @@ def channel_edges(
                 [],
                 [],
                 [
-                    f"line {table.rows[0].line}: both edges of each channel are given: say sizes: edges"
+                    f"line {table.rows[0].line}: both edges of each channel are given: say "
+                    "sizes: edges"
                 ],
             )
         rows, totals, problems = _rows(pairs, declared, "value", edges=True)
@@ -103,7 +99,7 @@ def channel_edges(
     edges, values, remarks, wrong = ([], [], [], [])
     if not problems:
         edges, values, remarks, wrong = edges_of_channels(rows, declared)
-    problems += _against_histogram(table, declared, rows) + wrong
+    problems += against_histogram(table, declared, rows) + wrong
     return ([], [], [], problems) if problems else (edges, values, remarks, [])
 
 
@@ -169,162 +165,3 @@ def _rows(table, declared, name, edges=False, unfilled=False):
 
 def _shown(value):
     return "nothing" if value is None else f"{value:g}"
-
-
-def _against_both(table, declared):
-    """Return which keys the words above the columns speak against, of channels and densities."""
-    words, against = table.words, []
-    basis = {"volume": "mass"}.get(declared.basis, declared.basis)
-    bases = words.bases()
-    if bases and basis and basis not in bases:
-        against.append(
-            f'the words "{words.value}" say basis: {" or ".join(sorted(bases))}, not basis: '
-            f"{declared.basis}"
-        )
-    if words.units() and declared.unit not in words.units():
-        against.append(
-            f'the words "{words.opening or words.title}" say unit: '
-            f"{' or '.join(sorted(words.units()))}, not unit: {declared.unit}"
-        )
-    if words.openings() and "size" not in words.openings():
-        against.append(
-            f'the words "{words.opening or words.title}" say that sizes are '
-            f"{' or '.join(sorted(words.openings()))}: give form: sieve with openings and values, "
-            "or sizes"
-        )
-    return against
-
-
-def _against_density(table, declared, rows):
-    """Return why a table is no density as it is declared, with what else it can be."""
-    words, against = table.words, _against_both(table, declared)
-    sizes = [row.values[0] for row in rows]
-    values = [row.values[1] for row in rows]
-    per, said = declared.per or "size", words.per()
-    if words.cumulative():
-        against.append(
-            f'the words "{words.value}" say a cumulative curve: give form: sieve with values: '
-            "percent_finer or percent_coarser"
-        )
-    elif said and per not in said and not (per != "size" and said <= {"phi", "log_size"}):
-        against.append(
-            f'the words "{words.value or words.title}" say per: {" or ".join(sorted(said))}, not '
-            f"per: {per}" + ("" if declared.per else ", the default")
-        )
-    if not against and declared.per is None and "size" not in said:
-        against += _numbers_against_density(words, sizes, values)
-    if not against:
-        return []
-    return [_density_readings(against, declared, sizes, values)]
-
-
-def _numbers_against_density(words, sizes, values):
-    many, geometric = len(sizes) >= 5, regular(sizes, "log")
-    rising = all(high >= low for low, high in pairwise(values))
-    if many and rising and values[-1] == 100:
-        return ["the values grow to 100, as percent finer do (form: sieve)"]
-    if len(sizes) >= 4 and abs(math.fsum(values) - 100) <= _SUM:
-        return ["the values sum to 100, as percent in each channel do (form: histogram)"]
-    if words.percent():
-        return [f'the words "{words.value}" say percent, as of a channel (form: histogram)']
-    if many and geometric and not _is_one(np.trapezoid(values, sizes)):
-        logs = np.log(sizes)
-        whole = np.trapezoid(values, logs)
-        if _is_one(whole) or _is_one(whole / math.log(10)) or _is_one(whole / math.log(2)):
-            return ["the density integrates to 1 over the logarithm of size, not over size"]
-        if len(sizes) >= 8:
-            return ["the sizes grow by a constant factor, as of a density per log_size"]
-    return []
-
-
-def _is_one(integral):
-    return any(abs(integral / whole - 1) < 0.02 for whole in (1.0, 100.0))
-
-
-def _density_readings(against, declared, sizes, values):
-    """Return the readings of a density, and of channels, with the D50 of each, in one line."""
-    basis = "number" if declared.basis == "number" else "mass"
-    unit = declared.unit
-    read = [
-        f"`form: density, per: {per}` D50 = {_median_of_density(sizes, values, basis, per)} {unit}"
-        for per in ("size", "log_size")
-    ]
-    read += _histogram_readings(sizes, values, declared)
-    other = "mass" if basis == "number" else "number"
-    per = declared.per or "size"
-    if any("basis" in words for words in against):
-        read.append(
-            f"`basis: {other}` D50 = {_median_of_density(sizes, values, other, per)} {unit}"
-        )
-    return _told(against, read, declared)
-
-
-def _told(against, read, declared):
-    units = [
-        f"in `unit: {unit}` each is the same number of {unit}"
-        for words in against
-        for unit in UNITS_IN_MM
-        if f"say unit: {unit}," in words
-    ]
-    return (
-        f"the file and the keys disagree: {'; '.join(against)}. Read as {'; as '.join(read)}"
-        f"{''.join('; ' + words for words in units)}. Paste the keys that are meant into the "
-        "grading, or correct the words in the file"
-    )
-
-
-def _histogram_readings(sizes, values, declared):
-    """Return how channels of these sizes would be read, with the D50 of each."""
-    basis = "number" if declared.basis == "number" else "mass"
-    read, rows = [], [Row(0, pair) for pair in zip(sizes, values, strict=True)]
-    scale = "log" if regular(sizes, "log") else "linear"
-    for kind in ("middles", "lower", "upper"):
-        keys = Declared(sizes=kind, scale=scale, unit=declared.unit)
-        edges, shares, _, wrong = edges_of_channels(rows, keys)
-        if not wrong:
-            median = from_histogram(edges, shares, basis, scale=scale).mass_ppf(0.5)
-            read.append(
-                f"`form: histogram, sizes: {kind}, scale: {scale}` D50 = {float(median):.3g} "
-                f"{declared.unit}"
-            )
-    return read
-
-
-def _median_of_density(
-    sizes: Sequence[float], values: Sequence[float], basis: str, per: str
-) -> str:
-    return f"{float(from_density(sizes, values, basis, per=per).mass_ppf(0.5)):.3g}"
-
-
-def _against_histogram(table, declared, rows):
-    """Return why a table is no histogram as it is declared, with what else it can be."""
-    words, against = table.words, _against_both(table, declared)
-    if words.cumulative():
-        against.append(
-            f'the words "{words.value}" say a cumulative curve: give form: sieve with values: '
-            "percent_finer or percent_coarser"
-        )
-    if words.per():
-        against.append(
-            f'the words "{words.value or words.title}" say a density: give form: density with '
-            f"per: {' or '.join(sorted(words.per()))}"
-        )
-    if words.sizes() and declared.sizes not in words.sizes():
-        against.append(
-            f'the words "{words.opening}" say sizes: {" or ".join(sorted(words.sizes()))}, not '
-            f"sizes: {declared.sizes}"
-        )
-    values = [row.values[-1] for row in rows if row.values[-1] is not None]
-    rising = all(high >= low for low, high in pairwise(values))
-    falling = all(high <= low for low, high in pairwise(values))
-    whole = max(values, default=0.0) == 100 and len(values) >= 4
-    if not against and declared.basis != "number" and whole and (rising or falling):
-        against.append(
-            "the values go between 0 and 100 without turning, as percent finer or coarser do "
-            "(form: sieve)"
-        )
-    if not against:
-        return []
-    sizes = [row.values[0] for row in rows]
-    filled = [0.0 if row.values[-1] is None else row.values[-1] for row in rows]
-    return [_told(against, _histogram_readings(sizes, filled, declared), declared)]

@@ -57,8 +57,9 @@ def read_table(
     columns: Sequence[str | int] | None = None,
     sheet: str | int | None = None,
     unfilled: bool = False,
+    wide: Sequence[str] = (),
 ) -> Table:
-    """Return the rows of a file's table, of the columns that are meant.
+    r"""Return the rows of a file's table, of the columns that are meant.
 
     Parameters
     ----------
@@ -72,6 +73,8 @@ def read_table(
         As for `sheets.read_sheet`.
     unfilled : bool
         Whether a row may lack its last cell.
+    wide : sequence of str
+        Names of as many columns as a file may have instead.
 
     Returns
     -------
@@ -87,7 +90,7 @@ def read_table(
     >>> import pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "sand.csv")
-    ...     _ = path.write_text("no.,mm,passing\\n1,2,100\\n2,0.5,0\\n")
+    ...     _ = path.write_text("no.,mm,passing\n1,2,100\n2,0.5,0\n")
     ...     read_table(path, ("opening", "value"), ["mm", 3]).rows
     [TextRow(line=2, cells=('2', '100')), TextRow(line=3, cells=('0.5', '0'))]
     """
@@ -103,6 +106,7 @@ def read_table(
     )
     if columns is None:
         width = _width(body)
+        names = wide if width == len(wide) else names
         if width > len(names):
             refuse(path, [_ask_for_columns(body, width, above, names)])
         places = list(range(len(names)))
@@ -186,12 +190,21 @@ def _ask_for_columns(body, width, above, names):
         f"{place}: '{name}'" if name else str(place) for place, name in enumerate(named, start=1)
     )
     number, cells = body[0]
-    pair = ", ".join(str(place) for place in range(1, len(names) + 1))
+    sizes = [place for place, name in enumerate(named) if _is_of_sizes(name)]
+    values = [place for place, name in enumerate(named) if Words(value=name).values()]
+    known = len(names) == 2 and len(sizes) == len(values) == 1 and sizes != values
+    places = [sizes[0], values[0]] if known else range(len(names))
+    pair = ", ".join(str(place + 1) for place in places)
     return (
         f"line {number}: {len(cells)} columns, {' | '.join(cells)}; must have {len(names)}: "
         f"{', '.join(names)}. The columns are {listed}: choose by name or number, as in "
         f"`columns: [{pair}]`. Decimal commas need semicolons between columns"
     )
+
+
+def _is_of_sizes(name):
+    words = Words(opening=name)
+    return bool(words.openings() or words.units())
 
 
 def _places(columns, above, body):

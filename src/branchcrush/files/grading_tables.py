@@ -72,9 +72,9 @@ def read_sieve_table(path: str | PathLike[str], declared: Declared | None = None
     """
     declared = declared or Declared()
     table = read_table(path, ("opening", NAMES[declared.kind]), declared.columns, declared.sheet)
-    refuse(path, contradictions(table, declared) + table.problems)
-    curve = sieve_curve(table, declared)
-    refuse(path, table.problems + curve.problems)
+    against, curve = contradictions(table, declared), sieve_curve(table, declared)
+    # What is wrong with a table that is something else says little.
+    refuse(path, table.problems + (against or curve.problems))
     rows = curve.rows
     refuse(path, _wrong_range(rows, declared))
     refuse(path, _wrong_ends(rows, declared))
@@ -152,10 +152,18 @@ def read_histogram(path: str | PathLike[str], declared: Declared) -> SizeTable:
     ...     table.sizes.tolist(), table.values.tolist()
     ([10.0, 20.0, 40.0, 80.0], [20.0, 50.0, 30.0])
     """
-    names = ("size", "value")
+    edges = declared.sizes == "edges"
+    both, names = ("lower", "upper", "value"), ("size", "value")
     if declared.columns and len(declared.columns) == 3:
-        names = ("lower", "upper", "value")
-    table = read_table(path, names, declared.columns, declared.sheet)
+        names = both
+    table = read_table(
+        path,
+        names,
+        declared.columns,
+        declared.sheet,
+        unfilled=edges,
+        wide=both if edges else (),
+    )
     edges, values, remarks, problems = channel_edges(table, declared)
     refuse(path, table.problems + problems)
     rows = [Row(0, (edge, 0.0)) for edge in edges]

@@ -24,14 +24,30 @@ _UNITS_OF_TITLE = {
     )
 }
 _PHI = r"\bphi\b|φ"
-_MESH = r"\bmesh(es)?\b|#\s*\d|\bno\.?\s*\d|\bsieve\s*(no\b|nr\b|number|#)|\bus sieve\b|\bsieb\s*-?\s*(nr\b|nummer)|\btamis n|\bastm\b|\btyler\b|^#$|\bmaschenzahl"
+_MESH = (
+    r"\bmesh(es)?\b|#\s*\d|\bno\.?\s*\d|\bsieve\s*(no\b|nr\b|number|#)|\bus sieve\b|"
+    r"\bsieb\s*-?\s*(nr\b|nummer)|\btamis n|\bastm\b|\btyler\b|^#$|\bmaschenzahl"
+)
 _TYLER, _ASTM = r"\btyler\b", r"\bastm\b|\bus (standard )?sieve\b|\bu\.s\."
 _CUMULATIVE = r"\bcum(ul\w*|\.|\b)|\bkum(ul\w*|\.|\b)|summe\b|\bsummen|\bcumule"
-_FINER = r"\bfiner\b|\bpassing\b|\bpass\b|\bpassed\b|\bundersize\b|\bunder size\b|\bsmaller\b|\bless than\b|durchgang|\bpassants?\b|\btamisats?\b|\bfeiner\b|\bcpft\b"
-_COARSER = r"\bcoarser\b|\boversize\b|\blarger than\b|\bgreater than\b|\bgrober\b|\bplus grossier"
+_FINER = (
+    r"\bfiner\b|\bpassing\b|\bpass\b|\bpassed\b|\bundersize\b|\bunder size\b|"
+    r"\bsmaller\b|\bless than\b|durchgang|\bpassants?\b|\btamisats?\b|\bfeiner\b|"
+    r"\bcpft\b"
+)
+_COARSER = (
+    r"\bcoarser\b|\boversize\b|\blarger than\b|\bgreater than\b|\bgrober\b|"
+    r"\bplus grossier"
+)
 _RETAINED = r"\bretained\b|\bretaining\b|ruckstand|\brefus\b|\bresidue\b|\bheld\b"
-_EACH = r"\bindividual\b|\bdifferential\b|\binterval\b|\bclass weight\b|\bfrequency\b|\bpartiels?\b|\bfraction\b|\bklassenanteil|\bfraktion"
-_GRAMS = r"[\[(]\s*k?g\s*[\])]|\bgrams?\b|\bgrammes?\b|\bgramm\b|(?:mass|weight|masse|gewicht|poids|retained|ruckstand|refus),?\s+k?g\b"
+_EACH = (
+    r"\bindividual\b|\bdifferential\b|\binterval\b|\bclass weight\b|\bfrequency\b|"
+    r"\bpartiels?\b|\bfraction\b|\bklassenanteil|\bfraktion"
+)
+_GRAMS = (
+    r"[\[(]\s*k?g\s*[\])]|\bgrams?\b|\bgrammes?\b|\bgramm\b|"
+    r"(?:mass|weight|masse|gewicht|poids|retained|ruckstand|refus),?\s+k?g\b"
+)
 _PERCENT = r"%|\bpercent\b|\bper cent\b|\bpercentage\b|\bprozent\b|\bpourcent"
 
 
@@ -112,7 +128,8 @@ class Words:
         said = {
             "phi": r"(/|per) ?d?phi\b|(/|per) ?d?φ",
             "log_size": r"\bd ?(log|ln|lg)|\blog|\bln\b|\blg\b|\bper decade\b|q\d?\*",
-            "size": r"(/|\bper) ?(d ?d\b|dx\b|mm|um|micron|cm|m\b|size|diameter)|1/(mm|um|m)\b|\b(mm|um|m)-1\b|(mm|um)\^-1",
+            "size": r"(/|\bper) ?(d ?d\b|dx\b|mm|um|micron|cm|m\b|size|diameter)"
+            r"|1/(mm|um|m)\b|\b(mm|um|m)-1\b|(mm|um)\^-1",
         }
         return {kind for kind, word in said.items() if re.search(word, text)}
 

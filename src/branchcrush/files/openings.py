@@ -106,6 +106,8 @@ def size_of(label: Label, openings: str, unit: str) -> float:
     """
     if openings == "size" and label.kind in ("number", "below") and label.unit in (None, unit):
         return label.value
+    if openings == "size" and label.kind == "inch" and unit == "inch":
+        return label.value
     size = _size_in_mm(label, openings) / UNITS_IN_MM[unit]
     # 0.425 / 1e-3 has one digit too many.
     return float(f"{size:.15g}") if openings != "phi" else size
@@ -120,7 +122,4 @@ def _size_in_mm(label, openings):
         return opening_of(label.value, openings, label.kind == "inch")
     if openings == "phi" and label.kind == "number":
         return size_of_phi(label.value)
-    # Inches are what a fraction is in any table of openings.
-    if openings == "size" and label.kind == "inch":
-        return label.value * UNITS_IN_MM["inch"]
     raise GradingError(f"{label.text!r} is no number")

@@ -73,8 +73,8 @@ def _numbers_against(table, declared, curve):
     labels = [label_of(row.cells[0]) for row in table.rows]
     affirmed = declared.openings or table.words.openings() == {"size"}
     if declared.scale_of_openings == "size":
-        if any(label.kind == "mesh" for label in labels):
-            against.append("the openings are numbers of sieves")
+        if _named(labels, declared.unit):
+            against.append("the openings are numbers or inches that sieves are called by")
         elif any(label.kind == "number" and label.value < 0 for label in labels):
             against.append("openings below 0 are none of sizes, and usual in phi")
         elif not affirmed and _like_meshes(labels, declared.unit):
@@ -82,7 +82,7 @@ def _numbers_against(table, declared, curve):
         elif not affirmed and _like_phi(labels, declared.unit):
             against.append("the openings grow by equal steps, as phi does, and few are of sieves")
     pattern = _pattern(table.rows, declared)
-    if not against and (curve.problems or pattern == "sum" and not declared.values):
+    if not against and (curve.problems or (pattern == "sum" and not declared.values)):
         if pattern == "sum":
             against.append("the values sum to 100, as percent retained on each sieve do")
         elif pattern in ("falls", "each") and declared.kind == "percent_finer":
@@ -92,6 +92,13 @@ def _numbers_against(table, declared, curve):
         elif pattern in ("rises", "falls") and declared.kind == "percent_retained":
             against.append("the values grow to a whole, as percent finer or coarser do")
     return against
+
+
+def _named(labels, unit):
+    """Return whether openings are names that standards give: No. 40, 3/8."""
+    return any(
+        label.kind == "mesh" or (label.kind == "inch" and unit != "inch") for label in labels
+    )
 
 
 def _numbers(labels: list[Label]) -> list[float]:
@@ -113,7 +120,8 @@ def _like_phi(labels, unit):
     """Return whether openings have the equal steps of phi, and are not those of sieves."""
     numbers = sorted(_numbers(labels))
     steps = [high - low for low, high in pairwise(numbers)]
-    if len(steps) < 4 or numbers[0] < -12 or numbers[-1] > 14:
+    # Who has phi and has to give a unit gives that of phi.
+    if unit != "mm" or len(steps) < 4 or numbers[0] < -12 or numbers[-1] > 14:
         return False
     common = max(set(steps), key=steps.count)
     odd = sum(value <= 0 or not is_nominal(value * UNITS_IN_MM[unit]) for value in numbers)
@@ -136,8 +144,10 @@ def _pattern(rows, declared):
         up, down = down, up
     if not down or not up:
         return "rises" if up else "falls"
-    # One or two that turn back are slips; of what each sieve holds, half do.
-    return "each" if min(up, down) > 1 and max(values[0], values[-1]) < 90 else "slip"
+    # One that turns back is a slip; of what each sieve holds, the most is between the ends.
+    most = max(values)
+    inside = most not in (values[0], values[-1])
+    return "each" if inside and (min(up, down) > 1 or values[-1] < most / 2) else "slip"
 
 
 def _other_readings(table, declared, free):
@@ -145,7 +155,7 @@ def _other_readings(table, declared, free):
     readings = [
         reading
         for reading in _candidates(table, declared, free)
-        if reading != declared and not sieve_curve(table, reading).problems
+        if not _same(reading, declared) and not sieve_curve(table, reading).problems
     ]
     changes = {
         reading: sum(
@@ -155,6 +165,14 @@ def _other_readings(table, declared, free):
         for reading in readings
     }
     return sorted(readings, key=changes.get)
+
+
+def _same(reading, declared):
+    return (reading.kind, reading.scale_of_openings, reading.unit) == (
+        declared.kind,
+        declared.scale_of_openings,
+        declared.unit if declared.scale_of_openings == "size" else "mm",
+    )
 
 
 def _candidates(table, declared, free) -> Iterator[Declared]:
@@ -180,7 +198,7 @@ def _candidates(table, declared, free) -> Iterator[Declared]:
 
 def _suggested(labels, declared, free):
     """Return which openings numbers allow."""
-    if any(label.kind == "mesh" for label in labels):
+    if _named(labels, declared.unit):
         return {"astm_e11", "tyler_mesh"}
     kinds = {declared.scale_of_openings} | ({"size"} if free else set())
     numbers = _numbers(labels)

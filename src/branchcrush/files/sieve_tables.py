@@ -245,8 +245,8 @@ def _from_retained(rows, pans, totals, declared):
         below = math.fsum([pan, *(finer.values[1] for finer in rows[:place])])
         curve.append(Row(row.line, (row.values[0], 100.0 * below / whole)))
     remarks = [
-        f"line {line}: the pan holds {value or 0:g}, {(value or 0) / whole:.2%} of the whole, below "
-        f"the last sieve, {rows[0].values[0]:g} {declared.unit}"
+        f"line {line}: the pan holds {value or 0:g}, {(value or 0) / whole:.2%} of the whole, "
+        f"below the last sieve, {rows[0].values[0]:g} {declared.unit}"
         for line, value in pans
         if rows
     ]

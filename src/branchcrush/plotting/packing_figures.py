@@ -17,7 +17,7 @@ from branchcrush.samples.ensemble import end_of_loading
 Path = str | os.PathLike
 
 
-def draw_grading(path: Path, dpi: int, grading: Table, seeds: str = "all seeds") -> Figure:
+def draw_grading(path: Path, dpi: int, grading: Table) -> Figure:
     """Draw Fig. 3, the grading, and return it.
 
     Parameters
@@ -27,35 +27,35 @@ def draw_grading(path: Path, dpi: int, grading: Table, seeds: str = "all seeds")
     dpi : int
     grading : DataFrame
         `grading.csv`.
-    seeds : str
-        As for `plotting.gradings.plot_grading`.
 
     Returns
     -------
     Figure
     """
     with figure(path, dpi) as ax:
-        gradings.plot_grading(grading, ax, seeds)
+        gradings.plot_grading(grading, ax)
     return ax.figure
 
 
-def draw_sieve_curve(path: Path, dpi: int, grading: Mapping[str, NDArray]) -> Figure:
-    """Draw a grading by mass and by number without grains drawn from it, and return the figure.
+def draw_preview(
+    path: Path, dpi: int, grading: Mapping[str, NDArray], unit: str, drawn: str = "drawn"
+) -> Figure:
+    """Draw the grading of a sample that has not run, and return the figure.
 
     Parameters
     ----------
     path : path-like
         A PNG file.
     dpi : int
-    grading : mapping of ndarray
-        As `gradings.curves.grading_table`; of it the diameter and the target.
+    grading, unit, drawn
+        As for `plotting.gradings.plot_preview`.
 
     Returns
     -------
     Figure
     """
     with figure(path, dpi) as ax:
-        gradings.plot_sieve_curve(grading, ax)
+        gradings.plot_preview(grading, unit, drawn, ax)
     return ax.figure
 
 

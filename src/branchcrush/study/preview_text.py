@@ -169,10 +169,14 @@ def _number(value: float) -> str:
 def _coarse(plan: Plan) -> str:
     expected, drawn = plan.coarse_grains
     number, share = plan.largest_grains
+    apart = (
+        f"are at most {plan.gap:.2g} % apart"
+        if plan.gap > 0.01
+        else "coincide to a hundredth of a %"
+    )
     return (
         f"{expected:.3g} expected in the coarsest 10 % of the mass, {drawn} drawn; the {number} "
-        f"largest drawn have {100.0 * share:.3g} % of the mass; drawn and asked sieve curve are at "
-        f"most {plan.gap:.2g} % apart"
+        f"largest drawn have {100.0 * share:.3g} % of the mass; drawn and asked sieve curve {apart}"
     )
 
 

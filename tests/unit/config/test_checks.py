@@ -241,8 +241,8 @@ def test_files_of_all_parts_of_a_mixture_are_named(folder):
     place = "config: samples.mine.grading.components"
     assert [line.removeprefix(place)[:43] for line in lines] == [
         ".0.grading.file = 'no.csv': there is no suc",
-        ".1.grading.file: wrong.csv, line 3: percent",
         ".1.grading.file: wrong.csv, line 2: percent",
+        ".1.grading.file: wrong.csv, line 3: percent",
         ".2.grading.file = '.': is a folder; give th",
     ]
 
@@ -254,17 +254,17 @@ def test_a_name_of_no_file_is_refused(folder, name):
 
 
 def test_a_missing_file_is_named_besides_another_mistake(folder):
-    lines = lines_of(study_of(grading={**SIEVE, "unit": "cm"}))
+    lines = lines_of(study_of(grading={**SIEVE, "unit": "ft"}))
     assert [line.split(" = ")[0][-12:] for line in lines] == ["grading.unit", "grading.file"]
 
 
 def test_missing_files_of_a_mixture_are_named_besides_another_mistake(folder):
-    parts = [{**SIEVE, "file": "no.csv"}, {**UNIFORM, "unit": "cm"}]
+    parts = [{**SIEVE, "file": "no.csv"}, {**UNIFORM, "unit": "ft"}]
     components = [{"weight": 1, "grading": part} for part in parts]
     wrong, missing = lines_of(
         study_of(grading={"form": "mixture", "basis": "mass", "components": components})
     )
-    assert wrong.startswith("config: samples.mine.grading.components.1.grading.unit = 'cm'")
+    assert wrong.startswith("config: samples.mine.grading.components.1.grading.unit = 'ft'")
     assert missing.startswith("config: samples.mine.grading.components.0.grading.file = 'no.csv'")
 
 

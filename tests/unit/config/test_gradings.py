@@ -24,6 +24,7 @@ VALID = {
     "single": {**SIZES, "value": 2.0},
     "sieve": {**SIZES, "basis": "mass", "file": "sand.csv", "min": None, "max": 3.0},
     "density": {**SIZES, "basis": "number", "file": "sand.csv", "min": 1.0, "max": None},
+    "histogram": {**SIZES, "basis": "number", "file": "sand.csv", "sizes": "lower", "max": 9.0},
     "radii": {**SIZES, "basis": "number", "file": "sand.csv"},
 }
 VALID = {form: {"form": form, **keys} for form, keys in VALID.items()}
@@ -35,9 +36,10 @@ VALID["mixture"] = {
         {"weight": 2.0, "grading": VALID["sieve"]},
     ],
 }
+TABLES = ("sieve", "density", "histogram")
 every_form = pytest.mark.parametrize("form", VALID)
 # Gradings that have no file to read.
-FORMULAS = [form for form in VALID if form not in ("sieve", "density", "radii", "mixture")]
+FORMULAS = [form for form in VALID if form not in (*TABLES, "radii", "mixture")]
 
 
 class Root(Section):
@@ -68,7 +70,9 @@ def message_of(section):
 def test_every_form_is_valid_and_plain_again(form):
     section = checked(VALID[form])
     assert section.form == form
-    assert section.model_dump() == VALID[form]
+    plain = {key: value for key, value in VALID[form].items() if value is not None}
+    if form != "mixture":
+        assert section.model_dump(exclude_none=True) == plain
     assert TypeAdapter(GradingSection).validate_python(section.model_dump()) == section
 
 
@@ -81,7 +85,7 @@ def test_every_formula_makes_a_grading_of_its_sizes(form):
 
 
 def test_bounds_of_a_table_may_be_left_out():
-    for form in ("sieve", "density"):
+    for form in TABLES:
         section = checked(section_with(form, min=None, max=None))
         assert (section.min, section.max) == (None, None)
 
@@ -97,7 +101,7 @@ def test_centre_of_a_distribution_may_lie_outside_its_bounds():
     ("form", "key"), [(form, key) for form in VALID for key in VALID[form] if key != "form"]
 )
 def test_every_key_but_the_bounds_of_a_table_is_required(form, key):
-    if (form in ("sieve", "density") and key in ("min", "max")) or key in NO_SIZES:
+    if (form in TABLES and key in ("min", "max")) or key in NO_SIZES:
         return
     if form in ("lognormal", "weibull") and key not in ("size", "unit", "basis"):
         assert message_of(section_with(form, **{key: None})).startswith("grading: must have ")
@@ -119,7 +123,17 @@ def test_unknown_form_is_refused_with_all_forms():
 @pytest.mark.parametrize(
     ("form", "keys", "expected"),
     [
-        ("uniform", {"unit": "cm"}, "grading.unit = 'cm'"),
+        ("uniform", {"unit": "ft"}, "grading.unit = 'ft'"),
+        ("sieve", {"values": "retained"}, "grading.values = 'retained'"),
+        ("sieve", {"openings": "mesh"}, "grading.openings = 'mesh'"),
+        ("sieve", {"columns": [1]}, "grading.columns = [1]: must be a list of two"),
+        ("sieve", {"columns": [1, 2, 3]}, "grading.columns = [1, 2, 3]: must be a list of two"),
+        ("sieve", {"columns": {"size": 1, "finer": 2}}, "grading.columns = {size: 1, finer: 2}"),
+        ("sieve", {"columns": [0, 1]}, "grading.columns = [0, 1]"),
+        ("sieve", {"sheet": True}, "grading.sheet = true: must be the name of a sheet"),
+        ("density", {"per": "mm"}, "grading.per = 'mm'"),
+        ("histogram", {"sizes": "centres"}, "grading.sizes = 'centres'"),
+        ("histogram", {"scale": "ln"}, "grading.scale = 'ln'"),
         ("uniform", {"size": "width"}, "grading.size = 'width'"),
         ("uniform", {"basis": "volume"}, "grading.basis = 'volume'"),
         ("fractal", {"basis": "mass"}, "grading.basis = 'mass'"),
@@ -287,6 +301,27 @@ def test_mixture_needs_two_parts_with_weights_and_holds_no_other():
         (detail,) = refused.value.errors()
         assert detail["loc"][:4] == ("grading", "mixture", "components", 1)
         assert detail["loc"][-1] == place
+
+
+def test_middles_of_channels_need_a_scale():
+    section = section_with("histogram", sizes="middles")
+    assert message_of(section).startswith("grading.scale = nothing: must be 'log' or 'linear'")
+    assert checked({**section, "scale": "log"}).scale == "log"
+
+
+def test_columns_may_be_named_in_any_order():
+    for columns in ([3, "Passing"], {"value": "Passing", "opening": 3}):
+        assert checked(section_with("sieve", columns=columns)).columns == [3, "Passing"]
+    named = {"value": 1, "upper": 2, "lower": 3}
+    assert checked(section_with("histogram", columns=named)).columns == [3, 2, 1]
+
+
+@pytest.mark.parametrize("openings", ["phi", "astm_e11", "tyler_mesh"])
+def test_openings_that_are_no_sizes_need_no_unit(openings):
+    section = section_with("sieve", openings=openings, unit=None)
+    assert checked(section).unit == "mm"
+    assert checked({**section, "unit": "um"}).unit == "um"
+    assert message_of({**section, "openings": "size"}).startswith("grading.unit: missing")
 
 
 # --- files ---------------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ def message_of(raw):
     ("path", "value", "shown", "allowed"),
     [
         ("samples.mine.grading.form", "gaussian", "'gaussian'", "'fractal'"),
-        ("samples.mine.grading.unit", "cm", "'cm'", "must be 'm', 'mm' or 'um'"),
+        ("samples.mine.grading.unit", "ft", "'ft'", "must be 'm', 'cm', 'mm', 'um' or 'inch'"),
         ("samples.mine.grading.min", -1.0, "-1 m", "a number above 0 m"),
         ("samples.mine.grading.min", 0, "0 m", "a number above 0 m"),
         ("samples.mine.grading.max", nan, "nan", "a number above 0 m"),
