@@ -8,8 +8,8 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   version, sample, seed and sections of the configuration. `study_provenance` and `stacked_tables`
   are for the tables of all samples.
 - `seeds` reads the files of one seed as its contact network is made of them.
-- `grading_tables` reads a user's sieve curve, density, channels or list of radii as `declared` says,
-  and names every line that is wrong. `sheets` makes lines of cells of a file, whatever machine or
+- `grading_tables` reads a user's sieve curve, density, channels or list of radii as `declared`
+  says, and names every line that is wrong. `sheets` makes lines of cells of a file, whatever machine or
   person wrote it (`decoding` of text, `spreadsheets` of workbooks), `columns` chooses the two that
   are meant, `openings` and `headers` know words; `rows` are the numbers.
 - `sieve_tables` makes a curve of a sieving, `sieve_readings` holds its words and numbers against
@@ -18,6 +18,6 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   leaves none by halves; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
 
 A newcomer adds a format of results to `tables`, beside the two of `write_table`; a kind of user's
-table to `grading_tables`, made of `columns.read_table` and `rows.refuse`; a word of another language
-to `headers` or `openings`.
+table to `grading_tables`, made of `columns.read_table` and `rows.refuse`; a word of another
+language to `headers` or `openings`.
 """
