@@ -9,9 +9,9 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   are for the tables of all samples.
 - `seeds` reads the files of one seed as its contact network is made of them.
 - `grading_tables` reads a user's sieve curve, density, channels or list of radii as `declared`
-  says, and names every line that is wrong. `sheets` makes lines of cells of a file, whatever machine or
-  person wrote it (`decoding` of text, `spreadsheets` of workbooks), `columns` chooses the two that
-  are meant, `openings` and `headers` know words; `rows` are the numbers.
+  says, and names every line that is wrong. `sheets` makes lines of cells of a file, whatever
+  machine or person wrote it (`decoding` of text, `spreadsheets` of workbooks), `columns` chooses
+  the two that are meant, `openings` and `headers` know words; `rows` are the numbers.
 - `sieve_tables` makes a curve of a sieving, `sieve_readings` holds its words and numbers against
   what is declared; `channel_tables`, `channel_edges` and `channel_readings` are the like.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
