@@ -85,6 +85,8 @@ def channel_edges(
         rows, totals, problems = _rows(pairs, declared, "value", edges=True)
     else:
         rows, totals, problems = _rows(table, declared, "value", unfilled=declared.sizes == "edges")
+    if not rows and not problems:
+        problems = ["line 1: no row of numbers; give a size and a value of each channel"]
     if problems:
         return [], [], [], problems
     whole = math.fsum(row.values[-1] for row in rows if row.values[-1] is not None)

@@ -106,7 +106,7 @@ def read_table(
     )
     if columns is None:
         width = _width(body)
-        names = wide if width == len(wide) else names
+        names = wide if wide and width == len(wide) else names
         if width > len(names):
             refuse(path, [_ask_for_columns(body, width, above, names)])
         places = list(range(len(names)))

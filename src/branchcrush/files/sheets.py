@@ -108,12 +108,18 @@ def read_sheet(path: str | PathLike[str], sheet: str | int | None = None) -> She
     if sheet is not None:
         raise GradingError(f"{path}: sheet = {sheet!r}: is for a workbook (.xlsx): leave it out")
     text = decoded(raw, path)
-    comments, lines = [], []
+    comments, written = [], []
     for number, line in _whole_lines(text):
         line, comment = _without_comment(line.strip())
         comments += [comment] if comment else []
-        separator = _separator(line)
-        if cells := _cells(line, separator):
+        if line:
+            written.append((number, line, _separator(line)))
+    # Where marks part columns, a line without any is a title, whatever blanks it has.
+    marks = sum(separator is not None for *_, separator in written) > len(written) / 2
+    lines = []
+    for number, line, separator in written:
+        cells = [line] if marks and separator is None else _cells(line, separator)
+        if cells:
             lines.append((number, cells, separator))
     return Sheet(_decimal(lines), comments)
 
