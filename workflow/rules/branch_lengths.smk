@@ -19,6 +19,7 @@ rule branch_lengths:
         pairs="results/{sample}/contact_pairs.csv",
         coordination="results/{sample}/coordination.csv",
         contact_numbers="results/{sample}/contact_numbers.json",
+        record="results/{sample}/made/branch_lengths.json",
     log:
         "logs/{sample}/branch_lengths.log",
     conda:

@@ -9,6 +9,7 @@ rule certificate:
     output:
         states="results/{sample}/certificate.csv",
         jamming="results/{sample}/jamming.csv",
+        record="results/{sample}/made/certificate.json",
     log:
         "logs/{sample}/certificate.log",
     # All that is fitted waits for it.
@@ -43,6 +44,7 @@ rule verdict:
     output:
         convergence="results/{sample}/convergence.csv",
         certificate="results/{sample}/certificate.json",
+        record="results/{sample}/made/verdict.json",
     log:
         "logs/{sample}/verdict.log",
     # Figures wait for it, as for the model, and both for the fit.

@@ -1,9 +1,13 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
+from pathlib import Path
+
 from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
 from branchcrush.source_files import source_digest
 
+# Of this project: a workflow that uses it as a module has another basedir.
+ROOT = Path(workflow.current_basedir).parents[1]
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}
 # The first seeds again with twice the strain steps, for the certificate's convergence.
 REFINED_SAMPLES = {
@@ -59,7 +63,7 @@ def of_refined_seeds(file, refined):
     return files
 
 
-def code(script):
-    """Return what stands for the modules a script runs: an edit of one reruns the jobs."""
-    # One text, where each module as an input would be looked at and recorded with every output.
-    return source_digest(workflow.source_path(f"../scripts/{script}.py"))
+def code(script, *others):
+    """Return what stands for a script, the modules it runs and other files that it reads."""
+    # One text, where each file as an input would be looked at and recorded with every output.
+    return source_digest(workflow.source_path(f"../scripts/{script}.py"), others)

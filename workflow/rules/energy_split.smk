@@ -12,6 +12,7 @@ rule energy_split:
         table="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",
         path="results/{sample}/energy_split_path.csv",
+        record="results/{sample}/made/energy_split.json",
     log:
         "logs/{sample}/energy_split.log",
     # The model and its figures, the longest chain, wait for it.

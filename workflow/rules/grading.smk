@@ -8,6 +8,7 @@ rule grading:
     output:
         table="results/{sample}/grading.csv",
         summary="results/{sample}/grading.json",
+        record="results/{sample}/made/grading.json",
     log:
         "logs/{sample}/grading.log",
     conda:

@@ -26,6 +26,9 @@ NETWORK_TABLES = [
     "stress_sharing",
 ]
 FIGURES = PACKING_FIGURES + FIT_FIGURES
+REPORT, FINDINGS_PAGE = (
+    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "findings")
+)
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
 
@@ -42,9 +45,10 @@ rule packing_figures:
         data=data_files,
         path=of_first_seed("path.csv"),
         packing=of_first_seed("packing.npz"),
-        particles=of_first_seed("particles.dump.gz"),
+        compressed=of_first_seed("compressed.parquet"),
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
+        record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
     conda:
@@ -71,6 +75,7 @@ rule fit_figures:
         data=data_files,
     output:
         **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
+        record="results/{sample}/made/fit_figures.json",
     log:
         "logs/{sample}/fit_figures.log",
     conda:
@@ -90,6 +95,7 @@ rule comparison:
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
         "results/comparison.csv",
+        record="results/made/comparison.json",
     log:
         "logs/comparison.log",
     conda:
@@ -107,7 +113,6 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
-        template=f"{workflow.basedir}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
@@ -115,12 +120,14 @@ rule report:
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
     output:
         "results/report.html",
+        record="results/made/report.json",
     log:
         "logs/report.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report"),
+        code=code("report", REPORT),
+        template=REPORT,
         samples=SAMPLES,
         figures=FIGURES,
     script:
@@ -138,6 +145,7 @@ rule findings:
         rows="results/findings.csv",
         exponents="results/exponents.csv",
         states="results/coordination.csv",
+        record="results/made/findings.json",
     log:
         "logs/findings.log",
     conda:
@@ -152,7 +160,6 @@ rule findings:
 
 rule findings_page:
     input:
-        template=f"{workflow.basedir}/workflow/report/findings.html.jinja",
         rows="results/findings.csv",
         states="results/coordination.csv",
         paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
@@ -163,12 +170,14 @@ rule findings_page:
     output:
         **{name: f"results/figures/findings/{name}.png" for name in FINDINGS},
         page="results/findings.html",
+        record="results/made/findings_page.json",
     log:
         "logs/findings_page.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("findings_page"),
+        code=code("findings_page", FINDINGS_PAGE),
+        template=FINDINGS_PAGE,
         samples=SAMPLES,
         figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,

@@ -18,6 +18,7 @@ rule sharing:
         stress_by_radius="results/{sample}/stress_by_radius.csv",
         stress_sharing="results/{sample}/stress_sharing.csv",
         summary="results/{sample}/sharing.json",
+        record="results/{sample}/made/sharing.json",
     log:
         "logs/{sample}/sharing.log",
     conda:

@@ -10,6 +10,7 @@ rule thermodynamics:
     output:
         curves="results/{sample}/thermodynamics.csv",
         summary="results/{sample}/thermodynamics.json",
+        record="results/{sample}/made/thermodynamics.json",
     log:
         "logs/{sample}/thermodynamics.log",
     # The model and its figures, the longest chain, wait for it.

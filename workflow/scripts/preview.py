@@ -15,7 +15,7 @@ from branchcrush.plotting.packing_figures import draw_grading
 from branchcrush.study.preview import preview_text, sample_plan
 
 with job(snakemake.log[0]):
-    params, inputs = snakemake.params, Path(snakemake.input.inputs[0]).parent
+    params, inputs = snakemake.params, Path(snakemake.params.inputs)
     plans = {}
     for (name, settings), path in zip(params.samples.items(), params.figures, strict=True):
         sample = sample_of(settings)

@@ -37,6 +37,7 @@ _LONGEST_NAME = 100
 _TAKEN = (
     "figures",
     "findings",
+    "made",
     "comparison.csv",
     "coordination.csv",
     "exponents.csv",
@@ -259,6 +260,13 @@ class Config(Section):
     energy_split: EnergySplit = EnergySplit()
     thermodynamics: Thermodynamics = Thermodynamics()
     figures: Figures = Figures()
+    keep_dumps: Literal["all", "last", "none"] = Field(
+        "all",
+        description=(
+            "Of which states a packing keeps LAMMPS's dumps of grains and pair forces, for OVITO: "
+            "all, the last one, or none. No result needs them."
+        ),
+    )
 
 
 def checked_config(raw: Any) -> Config:
