@@ -7,6 +7,7 @@ records are held against what is there now, and the jobs that do not fit are for
 import functools
 
 from snakemake.dag import DAG
+from snakemake.io import remove_flag
 from snakemake.logging import logger
 from snakemake.settings.types import RerunTrigger
 
@@ -18,36 +19,33 @@ inputflags:
     ancient,
 
 
-# Nor does what Snakemake notes of earlier runs, which is lost with its folder. Times are always
-# among the triggers. Where this is a module, the other workflow's rules need the triggers.
-if workflow.dag_settings is not None and workflow.modifier.parent_modifier is None:
-    workflow.dag_settings.rerun_triggers = frozenset({RerunTrigger.MTIME})
-
-
 def recorded(jobs):
     """Return the jobs whose results have a record."""
     return [job for job in jobs if "record" in job.output.keys()]
 
 
-def by_content(update_needrun):
+def by_content(update_needrun, alone):
     """Return Snakemake's choice of the jobs to run, with those that do not fit what is there."""
 
     @functools.wraps(update_needrun)
     async def update(dag, create_inventory=False):
-        first = create_inventory and dag.workflow.is_main_process
-        cases = out_of_date(recorded(dag.jobs)) if first else []
+        if not (create_inventory and dag.workflow.is_main_process):
+            return await update_needrun(dag, create_inventory)
+        if alone:
+            # Nor does what Snakemake notes of earlier runs, which is lost with its folder.
+            dag.workflow.dag_settings.rerun_triggers = frozenset({RerunTrigger.MTIME})
+        cases = out_of_date(recorded(dag.jobs))
         for case in cases:
             dag.forcefiles.update(case.job.output)
         await update_needrun(dag, create_inventory)
-        if first:
-            running = set(dag.needrun_jobs())
-            following = set(dag.bfs(dag.depending, *running)) - running
-            # As no input is newer than what it made, none brings about what follows from it.
-            for job in recorded(following):
-                dag.forcefiles.update(job.output)
-            if following:
-                await update_needrun(dag)
-            report_cases(dag, cases)
+        # What follows is brought about by its inputs as ever, which have to count for it.
+        running = set(dag.needrun_jobs())
+        following = set(dag.bfs(dag.depending, *running)) - running
+        for file in (file for job in following for file in job.input):
+            remove_flag(file, "ancient")
+        if following:
+            await update_needrun(dag)
+        report_cases(dag, cases)
 
     return update
 
@@ -65,4 +63,6 @@ def report_cases(dag, cases):
 
 # Snakemake offers no place between the two. Once, however many modules include this.
 if workflow.is_main_process and not hasattr(DAG.update_needrun, "__wrapped__"):
-    DAG.update_needrun = by_content(DAG.update_needrun)
+    # The rules of a workflow that uses this as a module need the triggers that its user chose.
+    alone = workflow.modifier.parent_modifier is None
+    DAG.update_needrun = by_content(DAG.update_needrun, alone)
