@@ -14,8 +14,8 @@ PROGRAM = """
 import json, os, sys
 from pathlib import Path
 
-from snakemake.api import DAGSettings, OutputSettings, ResourceSettings, SnakemakeApi
-from snakemake.api import Quietness
+from snakemake.api import SnakemakeApi
+from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
 from branchcrush.records import out_of_date
 
 with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
