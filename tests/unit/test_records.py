@@ -173,6 +173,12 @@ def test_what_was_never_done_and_what_has_no_record_is_no_case(here):
     assert out_of_date([fit(), other]) == []
 
 
+def test_half_of_what_an_interrupted_job_leaves_is_made_anew():
+    for path in fit().output[1:]:
+        Path(path).unlink()
+    assert reasons(fit()) == ["no record tells what made its files"]
+
+
 def test_a_dump_may_go():
     Path("results/sand/pairs.dump.gz").unlink()
     assert reasons(fit()) == []
