@@ -48,6 +48,7 @@ rule all:
         "results/findings.html",
 
 
+include: "workflow/rules/out_of_date.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/compression.smk"
 include: "workflow/rules/grading.smk"

@@ -24,6 +24,8 @@ ROOMS = sorted(file.parent.name for file in PACKAGE.glob("*/__init__.py"))
 # Rooms that no drawing, no workflow and no check of a configuration may slow down.
 PURE = ("branches", "crushing", "energy", "forces", "gradings", "loading", "packings", "samples")
 PURE += ("statistics",)
+# How a job reports, and what it notes of itself.
+REPORTS = {"jobs", "records"}
 # Besides the pure ones, of what the jobs of the seeds load: many are started.
 LEAN = ("config.build", "files.seeds", "lammps.compression")
 
@@ -74,7 +76,7 @@ def test_direct_imports_are_the_modules_of_the_package(tmp_path, source, modules
 
 
 def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_path):
-    source = "from branchcrush.packings import placement\nfrom branchcrush.jobs import job\n"
+    source = "from branchcrush.packings import placement\nfrom branchcrush import jobs, records\n"
     (tmp_path / "script.py").write_text(source)
     files = source_files(tmp_path / "script.py")
     assert [str(Path(file).relative_to(PACKAGE)) for file in files] == [
@@ -88,9 +90,18 @@ def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_pa
 
 def test_a_digest_is_that_of_the_names_and_contents_of_the_files(tmp_path):
     (tmp_path / "script.py").write_text("from branchcrush.errors import FitError\n")
-    content = hashlib.sha256(file_of("errors").read_bytes()).hexdigest()
-    expected = hashlib.sha256(f"errors.py {content}\n".encode()).hexdigest()
-    assert source_digest(tmp_path / "script.py") == expected
+    (tmp_path / "page.jinja").write_text("page")
+    contents = {
+        "script.py": tmp_path / "script.py",
+        "errors.py": file_of("errors"),
+        "page.jinja": tmp_path / "page.jinja",
+    }
+    lines = [
+        f"{name} {hashlib.sha256(file.read_bytes()).hexdigest()}\n"
+        for name, file in contents.items()
+    ]
+    expected = hashlib.sha256("".join(lines).encode()).hexdigest()
+    assert source_digest(tmp_path / "script.py", [tmp_path / "page.jinja"]) == expected
 
 
 # --- what Python loads ---------------------------------------------------------------------------
@@ -119,7 +130,7 @@ def loaded():
     """What Python loads: of the pure modules, of the lean ones, and of each script in turn."""
     pure = [module for module in MODULES if module.startswith(tuple(f"{room}." for room in PURE))]
     # What is loaded from outside stays loaded: the scripts, which draw, come last.
-    scripts = [sorted(imported_modules(script) - {"jobs"}) for script in SCRIPTS]
+    scripts = [sorted(imported_modules(script) - REPORTS) for script in SCRIPTS]
     groups = [pure, pure + list(LEAN), *scripts]
     slow = ["lammps", "mpi4py", "snakemake", "matplotlib", "pydantic", "yaml"]
     arguments = [sys.executable, "-c", PROGRAM, json.dumps([slow, groups])]
@@ -141,7 +152,7 @@ def test_a_script_watches_all_that_python_loads_for_it_but_the_way_a_job_reports
 
 
 def test_every_script_is_a_job():
-    assert [script for script in SCRIPTS if "jobs" not in imported_modules(script)] == []
+    assert [script for script in SCRIPTS if not REPORTS & imported_modules(script)] == []
 
 
 def test_every_module_is_used_by_the_workflow_or_a_command():

@@ -57,7 +57,7 @@ def test_a_changed_key_reruns_its_stage_and_what_follows(study, old, new, rules)
         ("src/branchcrush/crushing/law.py", MODEL),
         ("src/branchcrush/loading/measures.py", PACKING),
         ("src/branchcrush/packings/placement.py", PACKING),
-        ("lammps_inputs/mod.relax", PACKING),
+        ("lammps_inputs/mod.near", PACKING),
         ("workflow/report/report.html.jinja", {"report"}),
     ],
 )

@@ -274,8 +274,9 @@ def test_every_table_names_what_made_it(finished):
         origin = json.loads(table.read_text().splitlines()[0].removeprefix("# "))
         assert origin["branchcrush"], table
     for fit in (finished.folder / "results").rglob("*.json"):
-        origin = read_json(fit)["provenance"]
-        assert origin.get("config") or origin["samples"], fit
+        if fit.name != "made.json" and fit.parent.name != "made":
+            origin = read_json(fit)["provenance"]
+            assert origin.get("config") or origin["samples"], fit
 
 
 def test_a_preview_tells_what_the_study_will_be_each_time_it_is_asked(study):

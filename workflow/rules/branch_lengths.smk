@@ -28,6 +28,7 @@ rule branch_lengths:
             "coordination", "coordination numbers and rattlers of every packing in every state"
         ),
         contact_numbers="results/{sample}/contact_numbers.json",
+        record="results/{sample}/made/branch_lengths.json",
     log:
         "logs/{sample}/branch_lengths.log",
     conda:

@@ -9,6 +9,7 @@ rule certificate:
     output:
         states=table("certificate", "every saved state with its measures and verdict"),
         jamming=table("jamming", "jamming solid fraction of every packing, with its uncertainty"),
+        record="results/{sample}/made/certificate.json",
     log:
         "logs/{sample}/certificate.log",
     # All that is fitted waits for it.
@@ -38,6 +39,7 @@ rule verdict:
     output:
         convergence=table("convergence", "the first seeds again with twice the strain steps"),
         certificate="results/{sample}/certificate.json",
+        record="results/{sample}/made/verdict.json",
     log:
         "logs/{sample}/verdict.log",
     # Figures wait for it, as for the model, and both for the fit.

@@ -80,10 +80,10 @@ def of_refined_seeds(file):
     return files
 
 
-def code(script):
-    """Return what stands for the modules a script runs: an edit of one reruns the jobs."""
-    # One text, where each module as an input would be looked at and recorded with every output.
-    return source_digest(workflow.source_path(f"../scripts/{script}.py"))
+def code(script, *others):
+    """Return what stands for a script, the modules it runs and other files that it reads."""
+    # One text, where each file as an input would be looked at and recorded with every output.
+    return source_digest(workflow.source_path(f"../scripts/{script}.py"), others)
 
 
 def figure(name):

@@ -12,6 +12,7 @@ rule energy_split:
         table=table("energy_split", "bins of the energy-split function"),
         fit="results/{sample}/energy_split.json",
         path=table("energy_split_path", "the exponent in every certified state"),
+        record="results/{sample}/made/energy_split.json",
     log:
         "logs/{sample}/energy_split.log",
     # The model and its figures, the longest chain, wait for it.

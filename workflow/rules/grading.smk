@@ -8,6 +8,7 @@ rule grading:
     output:
         table=table("grading", "target, realised and ultimate grading, by number and by mass"),
         summary="results/{sample}/grading.json",
+        record="results/{sample}/made/grading.json",
     log:
         "logs/{sample}/grading.log",
     conda:

@@ -3,7 +3,6 @@
 
 rule preview:
     input:
-        inputs=rules.compression.input.inputs,
         data=[file for settings in SAMPLES.values() for file in data_of(settings)],
     log:
         "logs/preview.log",
@@ -12,6 +11,7 @@ rule preview:
         "../envs/branchcrush.yaml"
     params:
         code=code("preview"),
+        inputs=str(LAMMPS_INPUTS),
         # No output of the workflow, nor a benchmark, which is one: a preview is made anew each
         # time it is asked for.
         text="results/preview.txt",

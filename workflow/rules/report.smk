@@ -26,6 +26,9 @@ NETWORK_TABLES = [
     "stress_sharing",
 ]
 FIGURES = PACKING_FIGURES + FIT_FIGURES
+REPORT, FINDINGS_PAGE = (
+    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "findings")
+)
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
 
@@ -42,9 +45,10 @@ rule packing_figures:
         data=data_files,
         path=of_first_seed("path.csv"),
         packing=of_first_seed("packing.npz"),
-        particles=of_first_seed("particles.dump.gz"),
+        compressed=of_first_seed("compressed.parquet"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
+        record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
     conda:
@@ -71,6 +75,7 @@ rule fit_figures:
         data=data_files,
     output:
         **{name: figure(name) for name in FIT_FIGURES},
+        record="results/{sample}/made/fit_figures.json",
     log:
         "logs/{sample}/fit_figures.log",
     conda:
@@ -94,6 +99,7 @@ rule comparison:
         ),
         # No job of its own, which would take a second to start and a moment to write it.
         package="results/datapackage.json",
+        record="results/made/comparison.json",
     log:
         "logs/comparison.log",
     conda:
@@ -113,7 +119,6 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
-        template=f"{ROOT}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
@@ -121,12 +126,14 @@ rule report:
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
     output:
         "results/report.html",
+        record="results/made/report.json",
     log:
         "logs/report.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report"),
+        code=code("report", REPORT),
+        template=REPORT,
         samples=SAMPLES,
         figures=FIGURES,
     script:
@@ -146,6 +153,7 @@ rule findings:
         ),
         exponents=study_table("exponents", "the exponent in every state of every sample"),
         states=study_table("coordination", "coordination numbers of every packing of every sample"),
+        record="results/made/findings.json",
     log:
         "logs/findings.log",
     conda:
@@ -160,7 +168,6 @@ rule findings:
 
 rule findings_page:
     input:
-        template=f"{ROOT}/workflow/report/findings.html.jinja",
         rows="results/findings.csv",
         states="results/coordination.csv",
         paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
@@ -171,12 +178,14 @@ rule findings_page:
     output:
         **{name: study_figure(name) for name in FINDINGS},
         page="results/findings.html",
+        record="results/made/findings_page.json",
     log:
         "logs/findings_page.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("findings_page"),
+        code=code("findings_page", FINDINGS_PAGE),
+        template=FINDINGS_PAGE,
         samples=SAMPLES,
         figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,

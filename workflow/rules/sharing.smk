@@ -25,6 +25,7 @@ rule sharing:
             "stress_sharing", "cumulative share of the stress against that of the volume"
         ),
         summary="results/{sample}/sharing.json",
+        record="results/{sample}/made/sharing.json",
     log:
         "logs/{sample}/sharing.log",
     conda:

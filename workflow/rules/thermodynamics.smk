@@ -12,6 +12,7 @@ rule thermodynamics:
             "thermodynamics", "curves of the crushing model at fixed and evolving crushing"
         ),
         summary="results/{sample}/thermodynamics.json",
+        record="results/{sample}/made/thermodynamics.json",
     log:
         "logs/{sample}/thermodynamics.log",
     # The model and its figures, the longest chain, wait for it.

@@ -3,10 +3,10 @@
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.datapackage import data_package
 from branchcrush.files.tables import read_json, study_provenance, write_json, write_table
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.study.comparison import comparison_row
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, samples = snakemake.input, snakemake.params.samples
     rows = [
         comparison_row(name, EnergySplitFit.read(read_json(fit)), *map(read_json, others))

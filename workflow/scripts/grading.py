@@ -2,11 +2,11 @@
 
 from branchcrush.config.build import grading_of, number_of_grains, size_fits
 from branchcrush.files.tables import provenance, read_packing, write_json, write_table
-from branchcrush.jobs import job
 from branchcrush.loading.targets import Loading
+from branchcrush.records import recorded_job
 from branchcrush.samples.grading import grading_results
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     sample = snakemake.params.sample
     table, report = grading_results(
         grading_of(sample["grading"]),

@@ -11,7 +11,7 @@ with job(snakemake.log[0]):
         params.samples,
         dict(zip(params.samples, params.figures, strict=True)),
         params.text,
-        inputs=Path(snakemake.input.inputs[0]).parent,
+        inputs=Path(params.inputs),
         log=snakemake.log[0],
         ultimate_alpha=params.ultimate_alpha,
         dpi=params.dpi,

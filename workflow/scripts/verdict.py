@@ -3,11 +3,11 @@
 from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import provenance, read_json, read_table, write_json, write_table
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.samples.seed_branches import ENERGY_COLUMNS
 from branchcrush.samples.verdict import Refined, verdict_results
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     sample, files = snakemake.params.sample, snakemake.input
     refined = None
     if files.refined_paths:

@@ -50,6 +50,7 @@ _NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
 _TAKEN = (
     "figures",
     "findings",
+    "made",
     "comparison.csv",
     "coordination.csv",
     "datapackage.json",
@@ -253,6 +254,13 @@ class Config(Section):
     )
     thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
     figures: Figures = Field(Figures(), description="What the figures look like.")
+    keep_dumps: Literal["all", "last", "none"] = Field(
+        "all",
+        description=(
+            "Of which states a packing keeps LAMMPS's dumps of grains and pair forces, for OVITO: "
+            "all, the last one, or none. No result needs them."
+        ),
+    )
 
 
 def checked_config(raw: Any) -> Config:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
 from branchcrush.gradings.sampling import sampled_radii
-from branchcrush.lammps.files import compress_file, write_data_file
+from branchcrush.lammps.files import compress_file, last_frame, write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.output import DUMPS, Compression, read_compression
 from branchcrush.lammps.run import run_script
@@ -124,6 +124,7 @@ def compress(
     folder: str | PathLike[str],
     log: str | PathLike[str],
     ranks: int = 1,
+    keep_dumps: Literal["all", "last", "none"] = "all",
 ) -> Compression:
     """Compress a packing in LAMMPS and return its loading path and contacts.
 
@@ -149,6 +150,8 @@ def compress(
         Where LAMMPS logs, a progress line each strain step.
     ranks : int
         MPI processes that share the packing.
+    keep_dumps : {"all", "last", "none"}
+        Of which states; those of an earlier run in the folder are not kept beside the new tables.
 
     Returns
     -------
@@ -187,10 +190,14 @@ def compress(
         tables = read_compression(scratch, variables, stopped)
         # All of them whole before the first takes the place of an earlier run's.
         packed = [f"{name}.gz" for name in DUMPS]
-        for name, target in zip(DUMPS, packed, strict=True):
-            compress_file(scratch / name, scratch / target)
+        for name, target in zip(DUMPS, packed, strict=True) if keep_dumps != "none" else ():
+            start = last_frame(scratch / name) if keep_dumps == "last" else 0
+            compress_file(scratch / name, scratch / target, start)
         for target in packed:
-            shutil.move(scratch / target, folder / target)
+            if keep_dumps == "none":
+                (folder / target).unlink(missing_ok=True)
+            else:
+                shutil.move(scratch / target, folder / target)
     return tables
 
 

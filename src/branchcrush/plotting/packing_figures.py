@@ -3,7 +3,6 @@
 import os
 from collections.abc import Mapping
 
-import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -63,7 +62,7 @@ def draw_packing(
     path: Path,
     dpi: int,
     packing: tuple[NDArray, NDArray, float],
-    particles: Mapping[str, NDArray],
+    compressed: Table,
     loading_path: Table,
     radius_max: float,
 ) -> Figure:
@@ -76,8 +75,8 @@ def draw_packing(
     dpi : int
     packing : tuple
         Positions, shape (N, 3), radii, shape (N,), and edge of `packing.npz` [m].
-    particles : mapping of ndarray, shape (N,)
-        The frame of `particles.dump.gz` at the end of the loading: x, y, z, radius [m].
+    compressed : DataFrame
+        `compressed.parquet` of the same packing.
     loading_path : DataFrame
         `path.csv` of this packing.
     radius_max : float
@@ -92,9 +91,9 @@ def draw_packing(
     scale = {"extent": edge, "radius_max": radius_max}
     with figure(path, dpi, *grid(1, 2)) as (before, after):
         plot_packing(positions, radii, edge, **scale, ax=before)
-        positions = np.column_stack([particles[axis] for axis in "xyz"])
+        positions = compressed[["x_m", "y_m", "z_m"]].to_numpy()
         last_edge = end["volume_m3"] ** (1 / 3)
-        plot_packing(positions, particles["radius"], last_edge, **scale, ax=after)
+        plot_packing(positions, compressed["radius_m"].to_numpy(), last_edge, **scale, ax=after)
         first = loading_path["solid_fraction"].iloc[0]
         before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
         after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")

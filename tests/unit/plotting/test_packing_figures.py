@@ -18,7 +18,7 @@ def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
         }
     )
     packing = (np.zeros((1, 3)), np.array([5e-4]), 2e-3)
-    after = {axis: np.array([0.0]) for axis in "xyz"} | {"radius": np.array([5e-4])}
+    after = pd.DataFrame({"x_m": [0.0], "y_m": [0.0], "z_m": [0.0], "radius_m": [5e-4]})
     first, last = drawn(packing_figures.draw_packing, packing, after, path, 1e-3)
     assert first.get_xlim() == last.get_xlim()
     assert "placed at random" in first.get_title() and "0.160" in first.get_title()
