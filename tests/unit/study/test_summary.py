@@ -31,17 +31,15 @@ def written(tmp_path):
 
 def test_sample_has_its_verdict_exponent_interval_and_the_seeds_behind_it(written):
     assert written(ROW)[0] == (
-        "paper: certified with notes, n = 3.11, with 95 % confidence between 2.99 and 3.24 (15 packings), "
-        "at solid fraction 0.741"
+        "paper: certified with notes, n = 3.11, with 95 % confidence between 2.99 and 3.24 "
+        "(15 packings), at solid fraction 0.741"
     )
 
 
 def test_one_seed_has_no_interval(written):
     line = written({**ROW, "exponent_low": None, "exponent_high": None, "seeds_certified": 1})[0]
-    assert (
-        line
-        == "paper: certified with notes, n = 3.11 (one packing: no interval), at solid fraction 0.741"
-    )
+    told = "n = 3.11 (one packing: no interval), at solid fraction 0.741"
+    assert line == f"paper: certified with notes, {told}"
 
 
 def test_sample_without_data_says_why(written):
