@@ -27,6 +27,7 @@ except ConfigError as error:
     raise WorkflowError(str(error)) from None
 
 
+include: "workflow/rules/one_run.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/compression.smk"
 include: "workflow/rules/grading.smk"

@@ -11,7 +11,8 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 - `grading_tables` reads a user's sieve curve, density or list of radii, and names every line that
   is wrong; `rows` reads the numbers of such a file, whatever machine or person wrote it.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
-  leaves none by halves; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
+  leaves none by halves; `scratch` makes folders that are known to be nobody's when their process is
+  dead, and removes such ones; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
 
 A newcomer adds a format of results to `tables`, beside the two of `write_table`; a kind of user's
 table to `grading_tables`, made of `rows.read_rows` and `rows.refuse`.
