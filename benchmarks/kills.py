@@ -147,7 +147,7 @@ def killed(study, name, victim, moment):
     return {**told, "in_time": True, "exit_code": main.returncode, "broken": broken}
 
 
-def kill_over_and_over(folder, kills, seed, in_a_row=4, **options):
+def kill_over_and_over(folder, kills, seed, in_a_row=6, **options):
     """Kill a study and go on with it, and return what came of each kill.
 
     A study is begun anew after a command that came to its end, which is one after at most
@@ -167,7 +167,7 @@ def kill_over_and_over(folder, kills, seed, in_a_row=4, **options):
             pairs = list(product(SIGNALS, VICTIMS))
             turns = rng.sample(pairs, len(pairs))
         # A share of the time that the whole takes, of which the first of a row can see the most.
-        record = killed(study, *turns[-1], rng.uniform(0.1, 1.0) * seconds)
+        record = killed(study, *turns[-1], rng.uniform(0.1, 0.9) * seconds)
         record["broken"] += _recomputed(study, finished)
         finished, row = study.finished_seeds(), row + 1
         if record["in_time"]:

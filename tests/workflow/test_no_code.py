@@ -10,8 +10,8 @@ USE = "__use_yte__: true\n"
 
 def definitions(made, indent=0):
     """Return a key that, as a template, makes a file."""
-    code = f"__definitions__: ['import pathlib; pathlib.Path({str(made)!r}).touch()']\n"
-    return " " * indent + code
+    code = json.dumps(f"import pathlib; pathlib.Path({str(made)!r}).touch()")
+    return f"{' ' * indent}__definitions__: [{code}]\n"
 
 
 def at_the_top(study, made):
@@ -40,7 +40,7 @@ def in_an_expression(study, made):
 
 
 def in_a_tag(study, made):
-    return study.tiny.replace("60", f"!!python/object/apply:os.system ['touch {made}']")
+    return study.tiny.replace("60", f"!!python/object/apply:os.system ['touch {made}']", 1)
 
 
 @pytest.mark.parametrize("target", SURE)
