@@ -64,7 +64,7 @@ def one_run() -> Iterator[None]:
             with _interrupt_ends_jobs(lock):
                 yield
         finally:
-            os.environ.pop(_VARIABLE)
+            os.environ.pop(_VARIABLE, None)
 
 
 def belongs_to_run() -> bool:

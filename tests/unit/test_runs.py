@@ -15,7 +15,7 @@ from branchcrush.errors import RunError
 from branchcrush.runs import one_run
 
 JOB = "from branchcrush.runs import join_run; import time; join_run(); print(1, flush=True); "
-# Begins a run and a job in it, tells both, and waits.
+# Begins a run and a job in it, tells the job, and waits.
 RUN = f"""\
 import subprocess, sys, time
 from branchcrush.runs import one_run
@@ -24,7 +24,10 @@ with one_run():
     process = subprocess.Popen(job, stdout=subprocess.PIPE)
     process.stdout.readline()
     print(process.pid, flush=True)
-    process.wait()
+    try:
+        process.wait()
+    except KeyboardInterrupt:  # as Snakemake, which waits for what runs
+        sys.exit(process.wait() < 0)
 """
 
 
@@ -75,9 +78,9 @@ def test_second_run_is_told_of_the_first_in_one_sentence(run):
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGTERM, signal.SIGINT])
 def test_folder_is_free_and_the_job_dead_after_any_end(run, number):
     run.send_signal(number)
-    with run.stdout:
-        assert run.wait(10) != 0
+    # Before anybody has looked after the dead run.
     assert ends(run.job)
+    assert run.wait(10) != 0
     with one_run():
         pass
 
@@ -109,6 +112,7 @@ def test_job_whose_run_died_before_it_began_ends_at_once(folder):
         # The same number, given to a process that began later.
         *rest, start = run.split(" ")
         other = " ".join([*rest, str(int(start) - 1)])
+        (folder / ".branchcrush" / "run.lock").write_text(other)
         ended = subprocess.run(job, env=of_run(other), capture_output=True)
         assert (ended.returncode, ended.stdout) == (-signal.SIGKILL, b"")
     # Another run has the folder by now.

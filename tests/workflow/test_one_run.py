@@ -12,9 +12,9 @@ def taken(study, monkeypatch):
     """The folder of a study while this process has a run in it."""
     monkeypatch.chdir(study.folder)
     with one_run():
+        # What is typed in the folder is no job of that run.
         monkeypatch.delenv("BRANCHCRUSH_RUN")
         yield study
-        monkeypatch.setenv("BRANCHCRUSH_RUN", "")
 
 
 def test_second_run_is_refused_in_one_sentence(taken):
