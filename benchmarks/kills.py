@@ -171,6 +171,10 @@ def kill_over_and_over(folder, kills, seed, in_a_row=6, **options):
         record["broken"] += _recomputed(study, finished)
         finished, row = study.finished_seeds(), row + 1
         if record["in_time"]:
+            print(
+                f"  kill {len(records) + 1}: {record['signal']} to {record['victim']}", flush=True
+            )
+        if record["in_time"]:
             turns.pop()
         if record["in_time"] or record["broken"]:
             records.append(record)
