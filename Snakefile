@@ -6,12 +6,19 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from branchcrush.config.schema import checked_config
-from branchcrush.config.file import config_file_problem
+from branchcrush.config.file import code_problem, config_file_problem
 from branchcrush.errors import ConfigError
 
 min_version("9.17")
 
-if "samples" not in config:  # none was named on the command line
+# What was named on the command line: read by then, and held to what config.yaml is held to.
+for file in workflow.overwrite_configfiles:
+    if problem := config_file_problem(file, whole=False):
+        raise WorkflowError(problem)
+if problem := code_problem(config):
+    raise WorkflowError(f"config: {problem}")
+
+if "samples" not in config:
     if problem := config_file_problem("config.yaml"):
         raise WorkflowError(problem)
 
@@ -49,6 +56,7 @@ rule all:
 
 
 include: "workflow/rules/out_of_date.smk"
+include: "workflow/rules/one_run.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/compression.smk"
 include: "workflow/rules/grading.smk"

@@ -46,7 +46,8 @@ class Study:
             "PYTHONPATH": str(self.source),
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
-        command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
+        command = [sys.executable, "-m", "snakemake"]
+        command += [] if cores is None else ["--cores", str(cores)]
         return subprocess.run(
             [*wrapped_in, *command, "--snakefile", str(self.snakefile), *arguments],
             cwd=self.folder,

@@ -18,7 +18,8 @@ rule preview:
         figures=[f"results/figures/{sample}/preview.png" for sample in SAMPLES],
         samples=SAMPLES,
         ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
-        cores=workflow.cores or 1,
+        # `workflow.cores` refuses where none are given, as with --unlock.
+        cores=workflow.resource_settings.cores or 1,
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/preview.py"

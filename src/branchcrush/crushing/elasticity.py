@@ -159,8 +159,7 @@ def fit_elasticity(
     loaded = np.unique(phi[energy > _LOADED * largest])
     if loaded.size < FEWEST_STATES:
         raise ValueError(
-            f"{loaded.size} states carry load, the fit needs {FEWEST_STATES}:"
-            " compress or save more"
+            f"{loaded.size} states carry load, the fit needs {FEWEST_STATES}: compress or save more"
         )
     root = np.sqrt(energy / largest)
 

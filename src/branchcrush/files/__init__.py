@@ -17,7 +17,8 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 - `dictionary` tells what every file of the results holds, each column and key with its type, unit
   and meaning, from the TOML files in `meanings`; `datapackage` makes `datapackage.json` of it.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
-  leaves none by halves; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
+  leaves none by halves; `scratch` makes folders that are known to be nobody's when their process is
+  dead, and removes such ones; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
 
 A newcomer adds a result to the stage of `meanings` that it is of, and a test says what is missing
 there; a format of results to `tables`, beside the two of `write_table`; a kind of user's table to

@@ -1,7 +1,6 @@
 """The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
 
 import shutil
-import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
+from branchcrush.files.scratch import scratch_folder
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.files import compress_file, last_frame, write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
@@ -165,10 +165,10 @@ def compress(
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     with (
-        tempfile.TemporaryDirectory(dir=folder, prefix=".compress-") as scratch,
-        tempfile.TemporaryDirectory(prefix="branchcrush-") as links,
+        scratch_folder(".compress-", folder) as scratch,
+        scratch_folder("branchcrush-") as links,
     ):
-        scratch, links = Path(scratch).resolve(), Path(links)
+        scratch = scratch.resolve()
         write_data_file(scratch / "packing.data", positions, radii, edge)
         # LAMMPS reads no path with a space in it, and the project may lie in such a one.
         (links / "inputs").symlink_to(Path(inputs).resolve())
@@ -286,7 +286,7 @@ def trial(
     variables = sample_variables(few, packing.radii)
     variables |= {"control": "edge", "targets": [cube_edge(packing.radii, _TRIAL)]}
     variables |= {"strain_step": 1.0, "approach_steps": 20}
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".trial-") as scratch:
+    with scratch_folder(".trial-", folder) as scratch:
         start = time.perf_counter()
         result = compress(*packing, variables, inputs=inputs, folder=scratch, log=log)
         seconds = time.perf_counter() - start
