@@ -34,7 +34,8 @@ def columns(path):
         return parquet.read_schema(path).names
     if path.suffix == ".json":
         content = read_json(path)
-        del content["provenance"]  # every file has it
+        if content.pop("provenance", None) is None:  # a record, which is all provenance
+            return list(content)
         return list(dict.fromkeys(keys(content)))
     if path.suffix == ".npz":
         with np.load(path) as arrays:
@@ -109,5 +110,7 @@ def test_the_data_package_names_every_file_but_itself(results):
     named = {resource["path"] for resource in package["resources"]}
     there = {path.relative_to(results).as_posix() for path in files_of(results)}
     made_when_asked = {"datapackage.json", "preview.txt", "figures/tiny/preview.png"}
-    assert named == there - made_when_asked
+    records = {name for name in there if re.search(r"(^|/)made(/\w+)?\.json$", name)}
+    assert len(records) > 10
+    assert named == there - made_when_asked - records
     assert package["provenance"]["samples"]["tiny"]["grains"] == 60

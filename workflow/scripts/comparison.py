@@ -7,7 +7,7 @@ from branchcrush.records import recorded_job
 from branchcrush.study.comparison import comparison_row
 
 with recorded_job(snakemake):
-    files, samples = snakemake.input, snakemake.params.samples
+    files, params, samples = snakemake.input, snakemake.params, snakemake.params.samples
     rows = [
         comparison_row(name, EnergySplitFit.read(read_json(fit)), *map(read_json, others))
         for name, fit, *others in zip(
@@ -17,5 +17,5 @@ with recorded_job(snakemake):
     origin = study_provenance(samples)
     write_table(snakemake.output.table, rows, origin)
     seeds = {name: sample["seeds"] for name, sample in samples.items()}
-    package = data_package(seeds, snakemake.params.run_again)
+    package = data_package(seeds, params.run_again, params.dumps)
     write_json(snakemake.output.package, package, origin)

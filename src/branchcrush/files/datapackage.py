@@ -19,14 +19,17 @@ _KINDS = {
 }
 # The first line of a table says what made it. Some readers count it, others know the sign.
 _DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
-# What a study makes only when it is asked for, and the description itself.
-_LEFT_OUT = ("preview", "datapackage.json")
+# What a study makes only when it is asked for, what it notes of its own work, and the description
+# itself.
+_LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage.json")
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate")
 
 
 def data_package(
-    samples: Mapping[str, Sequence[int]], run_again: Mapping[str, Sequence[int]]
+    samples: Mapping[str, Sequence[int]],
+    run_again: Mapping[str, Sequence[int]],
+    dumps: bool = True,
 ) -> dict[str, Any]:
     """Return the description of all files of a study, with every column's type, unit and meaning.
 
@@ -37,6 +40,8 @@ def data_package(
     run_again : mapping
         Seeds by name of what is run again with smaller strain steps; of these there are the
         packings and their certificates alone.
+    dumps : bool
+        Whether LAMMPS's dumps are kept.
 
     Returns
     -------
@@ -59,6 +64,8 @@ def data_package(
     resources = []
     for file in result_files():
         if file.rule in _LEFT_OUT or file.path in _LEFT_OUT:
+            continue
+        if file.path.endswith(".dump.gz") and not dumps:
             continue
         everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
         resources += [_resource(file, path) for path in _paths(file.path, everything)]
