@@ -156,7 +156,7 @@ def test_a_grading_of_wrong_keys(study, grading, expected):
         ("8,100\n", ["line 1: one row of numbers; must be two or more"]),
         ("opening,percent\n", ["line 1: no row of numbers; must be two or more"]),
         ("", ["is empty; write one row of numbers on each line"]),
-        (b"PK\x03\x04\x00\x00", ["is no text in UTF-8 and no workbook (.xlsx); save the table as CSV"]),
+        (b"PK\x03\x04\x00\x00", ["is no text in UTF-8 and no workbook (.xlsx); save"]),
     ],
 )
 def test_a_sieve_table_that_is_wrong_is_answered_with_its_lines(study, content, expected):

@@ -2,9 +2,9 @@
 
 It is written down once, in the TOML files of `meanings`, a file for each stage. From them come
 `docs/results.md`, `datapackage.json` beside the results, and the test that holds both against a
-real run. A path there may hold ``<sample>``, ``<seed>`` and ``<rule>``. A name may hold braces as a shell
-expands them, as in ``exponent{,_low,_high}``; ``a.b`` is a key in a key of JSON, ``a[].b`` a key of
-each in a list.
+real run. A path there may hold ``<sample>``, ``<seed>`` and ``<rule>``. A name may hold braces as a
+shell expands them, as in ``exponent{,_low,_high}``; ``a.b`` is a key in a key of JSON, ``a[].b`` a
+key of each in a list.
 """
 
 import hashlib
