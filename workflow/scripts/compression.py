@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.config.build import sample_of
+from branchcrush.config.sample import sample_of
 from branchcrush.files.tables import provenance, write_packing, write_table
 from branchcrush.lammps.compression import compress, placed_packing, sample_variables
 from branchcrush.lammps.files import write_data_file

@@ -1,6 +1,7 @@
 """Write the target grading beside what the seeds realise, and how well they stand for it."""
 
-from branchcrush.config.build import grading_of, number_of_grains, size_fits
+from branchcrush.config.build import grading_of, size_fits
+from branchcrush.config.sample import number_of_grains
 from branchcrush.files.tables import provenance, read_packing, write_json, write_table
 from branchcrush.loading.targets import Loading
 from branchcrush.records import recorded_job

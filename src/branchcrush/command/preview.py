@@ -10,7 +10,8 @@ import numpy as np
 
 import branchcrush
 from branchcrush.command.check import study_of
-from branchcrush.config.build import sample_of, size_fits, unit_of
+from branchcrush.config.build import size_fits, unit_of
+from branchcrush.config.sample import sample_of
 from branchcrush.errors import BranchcrushError
 from branchcrush.files.tables import write_text
 from branchcrush.gradings.curves import grading_table, ultimate_grading

@@ -1,7 +1,7 @@
-"""What a job makes of its plain settings: the grading that a section describes, the sample."""
+"""The grading that a section of the configuration describes, as a job makes it of plain settings."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,9 +29,6 @@ from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.narrower import narrower_range
 from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
 from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
-from branchcrush.loading.sample import Sample
-from branchcrush.loading.targets import Loading
-from branchcrush.packings.contact_laws import contact_law
 
 
 @dataclass(frozen=True)
@@ -164,32 +161,6 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
         raise GradingError(f"{file}: {error}") from None
 
 
-def number_of_grains(settings: Mapping[str, Any]) -> int:
-    """Return how many grains a sample has: what it says, or as many as its list.
-
-    Parameters
-    ----------
-    settings : mapping
-        With grading and grains of `config.schema.Sample.settings`.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    GradingError
-        When the list cannot be read.
-
-    Examples
-    --------
-    >>> number_of_grains({"grading": {"form": "uniform"}, "grains": 10})
-    10
-    """
-    grains = settings["grains"]
-    return len(read_radii(settings["grading"]["file"])) if grains is None else grains
-
-
 def unit_of(section: Mapping[str, Any]) -> tuple[str, float, str]:
     """Return the unit that a section gives sizes in, what it is in metres, and what sizes are.
 
@@ -278,42 +249,3 @@ def size_fits(section: Mapping[str, Any]) -> dict[str, SizeFit]:
             diameter = 2.0 * GradingValues(part).to_radius
             fits[key] = curve_of(part["form"], {name: part[name] * diameter for name in given})
     return fits
-
-
-def sample_of(settings: Mapping[str, Any]) -> Sample:
-    """Return the sample that plain settings describe.
-
-    Parameters
-    ----------
-    settings : mapping
-        Of `config.schema.Sample.settings`, all of it or what a rule is given of it.
-
-    Returns
-    -------
-    Sample
-
-    Raises
-    ------
-    GradingError
-        When a file of the grading is not usable.
-
-    Examples
-    --------
-    >>> grading = {"form": "single", "size": "radius", "unit": "mm", "value": 1.0}
-    >>> sample = sample_of({"grading": grading, "sampling": "random", "grains": 10,
-    ...                     "boundary": "periodic", "initial_solid_fraction": 0.2,
-    ...                     "contact": {"law": "linear", "normal_stiffness": 1e6},
-    ...                     "loading": {"target": "solid_fraction", "value": 0.7},
-    ...                     "strain_step": 1e-3})
-    >>> sample.periodic, sample.end, sample.law.name
-    (True, 0.7, 'linear')
-    """
-    known = {field.name for field in fields(Sample)} - {"grading", "grains", "loading", "seeds"}
-    return Sample(
-        grading=grading_of(settings["grading"]),
-        grains=number_of_grains(settings),
-        law=contact_law(**settings["contact"]),
-        loading=Loading(**settings["loading"]),
-        seeds=tuple(settings.get("seeds", ())),
-        **{key: value for key, value in settings.items() if key in known},
-    )

@@ -7,10 +7,11 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from branchcrush.config.build import grading_of, narrower_words, number_of_grains
+from branchcrush.config.build import grading_of, narrower_words
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
+from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import REFINED, Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.representativity import representativity

@@ -188,7 +188,7 @@ class Sample(Section):
         Returns
         -------
         dict
-            As `config.build.sample_of` takes it.
+            As `config.sample.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
         values = self.model_dump(exclude_none=True) | {"grains": self.grains}

@@ -222,7 +222,7 @@ def _overlaps(overlap):
     if overlap <= OVERLAP_FLAG:
         return []
     return [
-        f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
+        f"overlaps of about {overlap:.0%} of the radius: the certificate notes them from "
         f"{OVERLAP_FLAG:.0%}, ask for less stress or raise the stiffness -> forces and energies "
         "beyond what a contact law of small overlaps means"
     ]

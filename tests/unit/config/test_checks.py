@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from branchcrush.config.build import grading_of, sample_of
+from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study, sample_problems
+from branchcrush.config.sample import sample_of
 from branchcrush.errors import ConfigError
 from branchcrush.gradings.representativity import representativity
 from branchcrush.gradings.sampling import sampled_radii
