@@ -1,4 +1,4 @@
-"""The grading that a section of the configuration describes, as a job makes it of plain settings."""
+"""The grading that a section of the configuration describes, made of its plain values."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
