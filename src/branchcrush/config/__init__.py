@@ -10,8 +10,8 @@ line with the key, its value, and what is allowed (`messages`).
 - `json_schema` writes `config.schema.json` from them, which editors read, and `reference` the
   tables of `docs/configuration.md`: `python -m branchcrush.config.json_schema`.
 - `checks.checked_study` makes it too, and refuses what no study can be made of: before any job.
-- `build.grading_of`, with `FORMS`, and `sample.sample_of` make the objects of a job from plain values.
-  They import no pydantic, so that jobs start at once.
+- `build.grading_of`, with `FORMS`, and `sample.sample_of` make the objects of a job from plain
+  values. They import no pydantic, so that jobs start at once.
 - `reading.grading_report` tells how a grading is read, with sizes and lines to paste; `table_keys`
   are the keys of forms that read a file.
 - `fields.number` is the type of a key that holds a number, with its bounds in words;
