@@ -63,9 +63,10 @@ tutorial: $(READY) ## the study of docs/tutorial.md, and the pictures and number
 	cp build/tutorial/results/comparison.csv docs/results/tutorial.csv
 	$(MADE) > docs/results/tutorial_made.txt
 
-quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, a quarter of an hour
+quality: $(READY) ## what draft, standard and fine mean, and notes of a certificate: docs/quality.md, half an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
+	$(BIN)/python studies/quality/effects.py > docs/results/note_effects.csv
 	$(MADE) > docs/results/quality_made.txt
 
 findings: $(READY) ## what the energy of a branch depends on, in five gradings: docs/energy_split.md, three quarters of an hour on 2 cores
@@ -86,9 +87,10 @@ publish: run ## the figures and tables that README and docs show, from this run
 	  $(SHRINK) results/figures/paper/$$figure.png docs/figures/$$figure.png; done
 	$(MADE) > docs/results/made.txt
 
-schema: $(READY) ## config.schema.json, the tables of docs/configuration.md and docs/licences.md
+schema: $(READY) ## config.schema.json, and the pages that are made: tables of keys, of results, of licences
 	$(BIN)/python -m branchcrush.config.json_schema
 	$(BIN)/python docs/licences.py
+	$(BIN)/python docs/results_page.py
 
 test: lint docs ## the linters, the site, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile

@@ -20,7 +20,7 @@ def results_page():
 
 def test_the_page_is_in_step_with_the_dictionary(results_page):
     written = (DOCS / "results.md").read_text(encoding="utf-8")
-    assert results_page.page(written) == written, "run python docs/results_page.py"
+    assert results_page.page(written) == written, "run make schema"
 
 
 def test_every_file_and_every_column_is_on_the_page():

@@ -63,7 +63,7 @@ def test_every_file_is_in_the_dictionary(results):
         known = [file.path for file in result_files() if file.matches(name)]
         assert len(known) == 1, (
             f"{name}: give it an entry [[files]] in {WHERE}, with path, rule, what it holds and "
-            "its columns, then run python docs/results_page.py"
+            "its columns, then run make schema"
         )
 
 
@@ -78,7 +78,7 @@ def test_every_column_is_in_the_dictionary_and_none_too_many(results):
         new = [column for column in there if column not in told]
         assert not new, (
             f"{name} has {new}: add a line for each in {WHERE} under {file.path}, "
-            'name = ["type", "unit", "meaning"], then run python docs/results_page.py'
+            'name = ["type", "unit", "meaning"], then run make schema'
         )
         # A key that holds others is there when one of them is.
         holders = {one[: at.start()] for one in there for at in re.finditer(r"\.|\[", one)}
