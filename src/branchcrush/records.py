@@ -36,10 +36,12 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     """
     with job(snakemake.log[0]):
         beside: list[str] = []
+        digests = Digests(snakemake.rule)
+        # Before the job reads them: one that is edited meanwhile is another one the next time.
+        inputs = digests_of(map(str, snakemake.input), digests)
         yield beside
         record = _made_with(snakemake, snakemake.rule)
-        digests = Digests(snakemake.rule)
-        record["inputs"] = digests_of(map(str, snakemake.input), digests)
+        record["inputs"] = inputs
         record["outputs"] = digests_of(_results(snakemake), digests)
         record["beside"] = digests_of(beside, digests)
         digests.note()
@@ -263,10 +265,10 @@ def dumps_not_kept(jobs: Iterable[Any]) -> str:
         wanted = dict(each.params.items()).get("keep_dumps")
         kept = (read_record(each.output.record) or {}).get("keep_dumps") if wanted else None
         if kept in KEPT_DUMPS and KEPT_DUMPS.index(kept) < KEPT_DUMPS.index(wanted):
-            short.append(each)
+            short.append((each.rule.name, wanted))
     if not short:
         return ""
-    number, rule = len(short), short[0].rule.name
+    number, (rule, wanted) = len(short), short[0]
     return (
         f"keep_dumps: {wanted} holds for packings that are still to be compressed; {number} "
         f"packing{'s' * (number > 1)} kept less. To have their dumps: --forcerun {rule}"

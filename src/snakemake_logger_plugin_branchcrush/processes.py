@@ -1,5 +1,6 @@
 """What jobs write to the run's own output, taken line by line so that it cannot garble a table."""
 
+import contextlib
 import os
 import threading
 from collections.abc import Callable, Sequence
@@ -47,10 +48,15 @@ class ProcessOutput:
         while block := os.read(self._read, 65536):
             *lines, rest = (rest + block).replace(b"\r\n", b"\n").split(b"\n")
             for line in lines:
-                self._take(line.decode("utf-8", "replace"))
+                self._hand_on_line(line)
         if rest:
-            self._take(rest.decode("utf-8", "replace"))
+            self._hand_on_line(rest)
         os.close(self._read)
+
+    def _hand_on_line(self, line: bytes) -> None:
+        # Where nobody reads on (`snakemake 2>&1 | head`), jobs would wait at a pipe that is full.
+        with contextlib.suppress(OSError, ValueError):
+            self._take(line.decode("utf-8", "replace"))
 
 
 def descriptor_of(stream: Any) -> int | None:

@@ -85,7 +85,7 @@ class Run:
     counts: dict[str, int] = field(default_factory=dict)
     running: dict[int, Job] = field(default_factory=dict)
     finished: list[Job] = field(default_factory=list)
-    failed: list[tuple[Job, str]] = field(default_factory=list)
+    failed: list[tuple[Job, str]] = field(default_factory=list)  # and not yet done by a retry
     seconds: list[tuple[bool, float]] = field(default_factory=list)  # of packings done
     at_once: int = 0  # most packings that have run beside each other
 
@@ -124,6 +124,7 @@ class Run:
             None where it was not known.
         """
         job = self.running.pop(number, None)
+        self._forget_failure(number)
         if job is not None:
             self.finished.append(job)
             if job.is_packing:
@@ -145,8 +146,13 @@ class Run:
         """
         job = self.running.pop(number, None)
         if job is not None:
+            self._forget_failure(number)
             self.failed.append((job, reason))
         return job
+
+    def _forget_failure(self, number: int) -> None:
+        """Take back that a job failed: with `--retries` only its last try counts."""
+        self.failed = [(job, reason) for job, reason in self.failed if job.number != number]
 
     @property
     def packings(self) -> int:

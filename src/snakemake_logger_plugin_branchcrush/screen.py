@@ -263,7 +263,7 @@ class Screen:
     def _from_job(self, line: str) -> None:
         """Show what a job wrote, but for the message that its failure is told by."""
         with self._lock:
-            if not line.startswith("branchcrush: "):
+            if not (self._stream.closed or line.startswith("branchcrush: ")):
                 self._form.say(line)
 
     def _say(

@@ -46,10 +46,13 @@ def fit(*, code="c0de", inputs=("sieve.csv", "results/sand/path.csv"), dumps="al
     )
 
 
+def as_script(made):
+    return SimpleNamespace(**{**vars(made), "rule": "fit", "log": ["logs/fit.log"]})
+
+
 def do(made):
     """Do a job, as its script does."""
-    script = SimpleNamespace(**{**vars(made), "rule": "fit", "log": ["logs/fit.log"]})
-    with recorded_job(script) as beside:
+    with recorded_job(as_script(made)) as beside:
         for path in made.output[:2]:
             Path(path).parent.mkdir(parents=True, exist_ok=True)
             Path(path).write_text("abc")
@@ -100,8 +103,7 @@ def test_the_same_job_leaves_the_same_record_whenever_it_is_done():
 
 def test_a_job_that_fails_leaves_no_record():
     Path(RECORD).unlink()
-    script = SimpleNamespace(**{**vars(fit()), "rule": "fit", "log": ["logs/fit.log"]})
-    with pytest.raises(SystemExit), recorded_job(script):
+    with pytest.raises(SystemExit), recorded_job(as_script(fit())):
         raise FitError("no load")
     assert read_record(RECORD) is None
 
@@ -159,6 +161,12 @@ def test_other_content_and_a_missing_file_are_reasons(file, changed, missing):
     assert reasons(fit()) == [missing]
 
 
+def test_an_input_that_is_edited_while_a_job_is_at_work_is_another_one():
+    with recorded_job(as_script(fit())):
+        Path("sieve.csv").write_text("abe")
+    assert reasons(fit()) == ["its input sieve.csv changed"]
+
+
 @pytest.mark.parametrize("whole", ["[]", "{}", '{"code": 3, "params": {}}', "\xff"])
 def test_a_record_that_holds_something_else_is_damaged(whole):
     Path(RECORD).write_text(whole, encoding="latin-1")
@@ -198,6 +206,12 @@ def test_fewer_dumps_are_no_reason_and_more_are_told(before, now, told):
     assert reasons(fit(dumps=now)) == []
     line = dumps_not_kept([fit(dumps=now)])
     assert ("--forcerun fit" in line and f"keep_dumps: {now}" in line) if told else line == ""
+
+
+def test_jobs_that_write_no_dumps_do_not_hide_what_others_kept():
+    do(fit(dumps="none"))
+    line = dumps_not_kept([fit(dumps="last"), fit(dumps=None)])
+    assert line.startswith("keep_dumps: last holds ") and "; 1 packing kept less" in line
 
 
 def test_a_line_for_each_reason_names_jobs_and_counts_packings():

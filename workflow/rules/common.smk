@@ -25,18 +25,18 @@ wildcard_constraints:
     seed=r"\d+",
 
 
-def sample_of(wildcards):
+def settings_of(wildcards):
     return {**SAMPLES, **REFINED_SAMPLES}[wildcards.sample]
 
 
 def section(*keys):
     """Return a params function for some keys of the sample, as plain values."""
-    return lambda wildcards: {key: sample_of(wildcards)[key] for key in keys}
+    return lambda wildcards: {key: settings_of(wildcards)[key] for key in keys}
 
 
 def data_files(wildcards):
     """Return the files that the sample's grading is read from."""
-    return data_of(sample_of(wildcards))
+    return data_of(settings_of(wildcards))
 
 
 def data_of(settings):
@@ -50,12 +50,12 @@ def of_seeds(file, of, seeds):
 
 def of_all_seeds(file):
     """Return an input function for a file of every seed of the sample."""
-    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"])
+    return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"])
 
 
 def of_first_seed(file):
     """Return an input function for a file of the one seed whose packing is drawn."""
-    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
+    return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"][:1])
 
 
 def of_refined_sample(file):

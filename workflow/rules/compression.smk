@@ -1,5 +1,6 @@
 # Compression: grading, grains, seed and loading -> a loose packing, and states, contacts and dumps
-# along its path. Dumps are no outputs: who deletes one, or keeps none, misses no result. One job a seed: to place the grains takes less than to start one.
+# along its path. Dumps are no outputs: who deletes one, or keeps none, misses no result. One job a
+# seed: to place the grains takes less than to start one.
 
 
 LAMMPS_INPUTS = ROOT / "lammps_inputs"
@@ -25,7 +26,7 @@ rule compression:
         "../envs/branchcrush.yaml"
     # MPI processes that share one packing; no more than there are cores. Not among the params: what
     # is certified does not depend on them.
-    threads: lambda wildcards: sample_of(wildcards)["ranks"]
+    threads: lambda wildcards: settings_of(wildcards)["ranks"]
     params:
         # A script includes others by names that it makes up: all that there are.
         code=code(

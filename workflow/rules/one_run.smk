@@ -15,6 +15,7 @@ def alone(execute):
         workflow.execution_settings.lock = False
         workflow.dag_settings.force_incomplete = True
         execution = partial(execute, *arguments, executor_plugin=executor_plugin, **settings)
+        # What Snakemake takes it for: settings.smk is read before that, and asks the command line.
         only_preview = set(workflow.dag_settings.targets) == {"preview"}
         if executor_plugin.common_settings.dryrun_exec or only_preview:
             return execution()

@@ -24,14 +24,14 @@ def recorded(jobs):
     return [job for job in jobs if "record" in job.output.keys()]
 
 
-def by_content(update_needrun, alone):
+def by_content(update_needrun, is_module):
     """Return Snakemake's choice of the jobs to run, with those that do not fit what is there."""
 
     @functools.wraps(update_needrun)
     async def update(dag, create_inventory=False):
         if not (create_inventory and dag.workflow.is_main_process):
             return await update_needrun(dag, create_inventory)
-        if alone:
+        if not is_module:
             # Nor does what Snakemake notes of earlier runs, which is lost with its folder.
             dag.workflow.dag_settings.rerun_triggers = frozenset({RerunTrigger.MTIME})
         cases = out_of_date(recorded(dag.jobs))
@@ -64,5 +64,5 @@ def report_cases(dag, cases):
 # Snakemake offers no place between the two. Once, however many modules include this.
 if workflow.is_main_process and not hasattr(DAG.update_needrun, "__wrapped__"):
     # The rules of a workflow that uses this as a module need the triggers that its user chose.
-    alone = workflow.modifier.parent_modifier is None
-    DAG.update_needrun = by_content(DAG.update_needrun, alone)
+    is_module = workflow.modifier.parent_modifier is not None
+    DAG.update_needrun = by_content(DAG.update_needrun, is_module)

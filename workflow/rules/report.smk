@@ -108,7 +108,6 @@ rule comparison:
         code=code("comparison"),
         samples=SAMPLES,
         run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
-        dumps=SETTINGS.keep_dumps != "none",
         dictionary=dictionary_digest(),
     script:
         "../scripts/comparison.py"

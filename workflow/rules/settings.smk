@@ -26,7 +26,7 @@ def only_previewed():
     """Return whether nothing but a preview is asked for, which shows grains that are too few."""
     if "preview" not in sys.argv:
         return False
-    # Snakemake itself tells its targets only after it has read this file.
+    # Snakemake itself tells its targets only after it has read this file, as one_run.smk asks it.
     from snakemake.cli import get_argument_parser
 
     return get_argument_parser().parse_known_args(sys.argv[1:])[0].targets == ["preview"]

@@ -17,5 +17,4 @@ with recorded_job(snakemake):
     origin = study_provenance(samples)
     write_table(snakemake.output.table, rows, origin)
     seeds = {name: sample["seeds"] for name, sample in samples.items()}
-    package = data_package(seeds, params.run_again, params.dumps)
-    write_json(snakemake.output.package, package, origin)
+    write_json(snakemake.output.package, data_package(seeds, params.run_again), origin)

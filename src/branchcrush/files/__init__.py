@@ -22,6 +22,6 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 
 A newcomer adds a result to the stage of `meanings` that it is of, and a test says what is missing
 there; a format of results to `tables`, beside the two of `write_table`; a kind of user's table to
-`grading_tables`, made of `columns.read_table` and `rows.refuse`; a word of another
+`grading_tables`, made of `columns.read_columns` and `rows.refuse`; a word of another
 language to `headers` or `openings`.
 """

@@ -51,7 +51,7 @@ class Table:
         return Words(" ".join(self.heads[:-1]), self.heads[-1], self.title)
 
 
-def read_table(
+def read_columns(
     path: str | PathLike[str],
     names: Sequence[str],
     columns: Sequence[str | int] | None = None,
@@ -91,7 +91,7 @@ def read_table(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "sand.csv")
     ...     _ = path.write_text("no.,mm,passing\n1,2,100\n2,0.5,0\n")
-    ...     read_table(path, ("opening", "value"), ["mm", 3]).rows
+    ...     read_columns(path, ("opening", "value"), ["mm", 3]).rows
     [TextRow(line=2, cells=('2', '100')), TextRow(line=3, cells=('0.5', '0'))]
     """
     sheet_read = read_sheet(path, sheet)

@@ -14,14 +14,14 @@ _KINDS = {
     ".html": ("html", "text/html", False),
     ".png": ("png", "image/png", False),
     ".npz": ("npz", "application/x-npz", False),
-    ".dump.gz": ("gz", "application/gzip", False),
     ".data": ("data", "text/plain", False),
 }
 # The first line of a table says what made it. Some readers count it, others know the sign.
 _DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
-# What a study makes only when it is asked for, what it notes of its own work, and the description
-# itself.
+# What a study makes only when it is asked for, what it notes of its own work, the description
+# itself, and LAMMPS's dumps.
 _LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage.json")
+_DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate")
 
@@ -29,9 +29,10 @@ _RUN_AGAIN = ("compression", "certificate")
 def data_package(
     samples: Mapping[str, Sequence[int]],
     run_again: Mapping[str, Sequence[int]],
-    dumps: bool = True,
 ) -> dict[str, Any]:
     """Return the description of all files of a study, with every column's type, unit and meaning.
+
+    LAMMPS's dumps are left out: which are there is up to `keep_dumps` and to who deletes them.
 
     Parameters
     ----------
@@ -40,8 +41,6 @@ def data_package(
     run_again : mapping
         Seeds by name of what is run again with smaller strain steps; of these there are the
         packings and their certificates alone.
-    dumps : bool
-        Whether LAMMPS's dumps are kept.
 
     Returns
     -------
@@ -63,9 +62,7 @@ def data_package(
     """
     resources = []
     for file in result_files():
-        if file.rule in _LEFT_OUT or file.path in _LEFT_OUT:
-            continue
-        if file.path.endswith(".dump.gz") and not dumps:
+        if file.rule in _LEFT_OUT or file.path in _LEFT_OUT or file.path.endswith(_DUMP):
             continue
         everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
         resources += [_resource(file, path) for path in _paths(file.path, everything)]

@@ -6,7 +6,7 @@ from os import PathLike
 import numpy as np
 
 from branchcrush.files.channel_tables import channel_edges, density_rows
-from branchcrush.files.columns import read_table
+from branchcrush.files.columns import read_columns
 from branchcrush.files.declared import Declared
 from branchcrush.files.rows import Row, read_rows, refuse
 from branchcrush.files.sieve_readings import contradictions
@@ -71,7 +71,7 @@ def read_sieve_table(path: str | PathLike[str], declared: Declared | None = None
     ([0.5, 2.0], [0.0, 100.0])
     """
     declared = declared or Declared()
-    table = read_table(path, ("opening", NAMES[declared.kind]), declared.columns, declared.sheet)
+    table = read_columns(path, ("opening", NAMES[declared.kind]), declared.columns, declared.sheet)
     against, curve = contradictions(table, declared), sieve_curve(table, declared)
     # What is wrong with a table that is something else says little.
     refuse(path, table.problems + (against or curve.problems))
@@ -115,7 +115,7 @@ def read_density_table(path: str | PathLike[str], declared: Declared | None = No
     [3.0, 1.0]
     """
     declared = declared or Declared()
-    table = read_table(path, ("size", "density"), declared.columns, declared.sheet)
+    table = read_columns(path, ("size", "density"), declared.columns, declared.sheet)
     rows, problems = density_rows(table, declared)
     refuse(path, table.problems + problems)
     refuse(path, _wrong_range(rows, declared))
@@ -156,7 +156,7 @@ def read_histogram(path: str | PathLike[str], declared: Declared) -> SizeTable:
     both, names = ("lower", "upper", "value"), ("size", "value")
     if declared.columns and len(declared.columns) == 3:
         names = both
-    table = read_table(
+    table = read_columns(
         path,
         names,
         declared.columns,

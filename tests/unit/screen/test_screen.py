@@ -159,6 +159,26 @@ def test_a_failure_is_told_with_its_message_and_again_at_the_end(told, packing_l
     ]
 
 
+def test_a_job_that_ends_well_when_it_is_tried_again_is_no_failure(told):
+    screen = told()
+    screen.plan(compression=1)
+    for _ in range(2):
+        screen.begin(1, "compression", sample="a", seed="1")
+        screen.fail(1, "compression", sample="a", seed="1")
+    screen.begin(1, "compression", sample="a", seed="1")
+    screen.finish(1)
+    assert screen.close() == ["Finished in 0 s: 1 of 1 packings."]
+
+
+def test_a_job_that_fails_each_time_is_one_failure(told):
+    screen = told()
+    screen.plan(compression=1)
+    for _ in range(2):
+        screen.begin(1, "compression", sample="a", seed="1")
+        screen.fail(1, "compression", sample="a", seed="1")
+    assert screen.close()[:2] == ["One job failed:", "  a seed 1: it left no message"]
+
+
 def test_a_message_that_an_earlier_run_left_is_not_this_ones(told, packing_log):
     packing_log("old.log", "branchcrush: long ago\n")
     screen = told()
