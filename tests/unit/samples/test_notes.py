@@ -33,7 +33,7 @@ def test_overlaps_are_noted_from_a_median_of_five_per_cent_of_the_radius(overlap
 
 def test_overlaps_of_packings_that_are_not_certified_are_no_note():
     assert notes.overlap_notes(ends([0.2, 0.2], certified=False)) == []
-    (note,) = notes.overlap_notes(ends([0.06, 0.2, 0.01], certified=[True, False, False]))
+    (note,) = notes.overlap_notes(ends([0.06, 0.2, 0.3], certified=[True, False, False]))
     assert note.value == 0.06
     assert "3.0% of the smaller radius in the median, 6.0% at 95 %" in note.finding
 
