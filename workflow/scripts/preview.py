@@ -17,4 +17,4 @@ with job(snakemake.log[0]):
         dpi=params.dpi,
         cores=params.cores,
     )
-    print(text)
+    print(text, end="")

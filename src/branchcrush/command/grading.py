@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,8 +34,6 @@ def section_of(file: str | None, given: Mapping[str, Any]) -> dict[str, Any]:
     implied = {
         "sieve": {"basis": "mass", "size": "diameter"},
         "radii": {"basis": "number"},
-        "fractal": {"basis": "number"},
-        "fuller": {"basis": "mass"},
     }.get(declared["form"], {})
     merged = {"form": declared["form"], **implied, **declared, "file": file}
     if file is None:
@@ -62,9 +61,17 @@ def grading(
     -------
     int
         1 if the table is not to be read so, else 0.
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is no such file.
     """
-    section = section_of(file, given)
-    report = grading_report(section)
+    if file is not None and not Path(file).exists():
+        raise FileNotFoundError(f"{file}: there is no such file in {Path.cwd()}")
+    # The study runs in a folder of its own, where names begin.
+    name = None if file is None else Path(file).name
+    report = grading_report(section_of(file, given), file_to_paste=name)
     if report.problems:
         print("\n".join(f"error: {line}" for line in report.problems), file=sys.stderr)
         return 1
@@ -85,6 +92,8 @@ def grading(
     if report.config_lines:
         print("to paste below a sample:")
         print("\n".join(f"    {line}" for line in report.config_lines))
+        if file is not None:
+            print("    # file: relative to the folder that the study runs in")
     return 0
 
 

@@ -6,7 +6,9 @@ import sys
 from collections.abc import Sequence
 
 from branchcrush import __version__
+from branchcrush.config.units import UNITS
 from branchcrush.errors import BranchcrushError
+from branchcrush.files.declared import WORDS
 
 _GRADING = """\
 Tell how a table of grain sizes is read: what its columns mean, D10 to D90, its curve, and the lines
@@ -27,18 +29,7 @@ _CHECK = """\
 Check a configuration with all that it asks of grains, files and folders, and name all problems at
 once, a line each. Names of files in it are relative to its folder.
 """
-_EXIT = "exit code: 0 sound, 1 problems in what was given, 2 no such file or no such option"
-# Keys of a grading, as options: their words, or None for numbers and names.
-_WORDS = {
-    "unit": ("m", "cm", "mm", "um", "inch"),
-    "size": ("diameter", "radius"),
-    "basis": ("mass", "volume", "number"),
-    "values": ("percent_finer", "percent_coarser", "percent_retained", "mass_retained"),
-    "openings": ("size", "phi", "astm_e11", "tyler_mesh"),
-    "sizes": ("edges", "lower", "upper", "middles"),
-    "scale": ("log", "linear"),
-    "per": ("size", "log_size", "phi"),
-}
+_EXIT = "exit code: 0 sound, 1 problems in what was given, 2 no such file, folder or option"
 _HELP = {
     "unit": "of the sizes",
     "size": "what sizes are; a sieve's are diameters",
@@ -80,7 +71,7 @@ def parser() -> argparse.ArgumentParser:
     grading.add_argument("file", nargs="?", metavar="FILE", help="the table: text or .xlsx")
     forms = ("sieve", "density", "histogram", "radii", "lognormal", "weibull")
     grading.add_argument("--form", choices=forms, default="sieve", help="what it is [sieve]")
-    for key, words in _WORDS.items():
+    for key, words in {"unit": tuple(UNITS), **WORDS}.items():
         grading.add_argument(f"--{key}", choices=words, help=_HELP[key])
     grading.add_argument(
         "--columns", nargs="+", metavar="COLUMN", help="which columns: words above one, or numbers"
@@ -93,7 +84,9 @@ def parser() -> argparse.ArgumentParser:
     grading.add_argument(
         "--geometric_standard_deviation", type=float, metavar="S", help="of a lognormal, with d50"
     )
-    grading.add_argument("--picture", metavar="PNG", help="draw the curve into this file")
+    grading.add_argument(
+        "--picture", type=_png, metavar="PNG", help="draw the curve into this file"
+    )
 
     preview = commands.add_parser(
         "preview",
@@ -135,7 +128,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, 1 for problems of what was given, 2 for no such file.
+        0, 1 for problems of what was given, 2 for no such file or folder.
 
     Examples
     --------
@@ -175,6 +168,12 @@ def _key(value):
 
 def _sized(key):
     return f"the size that {key[1:]} %% are finer than, of a lognormal or Weibull curve"
+
+
+def _png(name):
+    if not name.endswith(".png"):
+        raise argparse.ArgumentTypeError(f"{name!r} must end in .png")
+    return name
 
 
 def _cores(text):

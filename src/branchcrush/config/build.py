@@ -26,7 +26,6 @@ from branchcrush.gradings.forms import (
     weibull,
 )
 from branchcrush.gradings.mixtures import from_radii, mixture, single
-from branchcrush.gradings.narrower import narrower_range
 from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
 from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
 
@@ -87,13 +86,13 @@ def _sieve(values: GradingValues) -> Grading:
 
 def _density(values: GradingValues) -> Grading:
     radius, density, cut = values.table(read_density_table)
-    per = values.section.get("per") or "size"
+    per = Declared.of(values.section).taken("per")
     return from_density(radius, density, values.basis, *cut, per=per)
 
 
 def _histogram(values: GradingValues) -> Grading:
     edges, shares, cut = values.table(read_histogram)
-    scale = values.section.get("scale") or "log"
+    scale = Declared.of(values.section).taken("scale")
     return from_histogram(edges, shares, values.basis, *cut, scale=scale)
 
 
@@ -185,37 +184,6 @@ def unit_of(section: Mapping[str, Any]) -> tuple[str, float, str]:
     while "components" in section:
         section = section["components"][0]["grading"]
     return section["unit"], UNITS[section["unit"]], section["size"]
-
-
-def narrower_words(
-    section: Mapping[str, Any], grading: Grading, grains: int, solid_fraction: float
-) -> str:
-    """Return which narrower range grains that are too few could stand for, in the user's unit.
-
-    Parameters
-    ----------
-    section : mapping
-        As for `grading_of`.
-    grading : Grading
-        What it makes.
-    grains : int
-    solid_fraction : float
-        At the end of the loading [-].
-
-    Returns
-    -------
-    str
-        To be put behind the message of `gradings.representativity`; empty where there is none.
-
-    Examples
-    --------
-    >>> section = {"form": "fractal", "size": "diameter", "unit": "mm", "basis": "number",
-    ...            "alpha": 2.6, "min": 0.01, "max": 2.0}
-    >>> narrower_words(section, grading_of(section), 2000, 0.64)
-    ': with 2000 grains diameters 0.497 to 2 mm, 49 % of the mass'
-    """
-    part = narrower_range(grading, grains, solid_fraction)
-    return "" if part is None else f": with {grains} grains {part.words(*unit_of(section))}"
 
 
 def size_fits(section: Mapping[str, Any]) -> dict[str, SizeFit]:

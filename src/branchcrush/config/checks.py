@@ -7,13 +7,14 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from branchcrush.config.build import grading_of, narrower_words
+from branchcrush.config.build import grading_of, unit_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import REFINED, Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
+from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import representativity
 from branchcrush.loading.targets import Loading, expected_overlap_ratio
 from branchcrush.packings.contact_laws import contact_law
@@ -144,7 +145,7 @@ def _grain_problems(settings, grading, grains, allowed):
     standing = representativity(grading, grains, end)
     problems = []
     if standing.verdict == "refuse" and not allowed:
-        part = narrower_words(settings["grading"], grading, grains, end)
+        part = narrower_words(grading, grains, end, *unit_of(settings["grading"]))
         problems.append(
             f"grains = {grains}: {standing.message}{part}; or set allow_unrepresentative: true, "
             "which the report will repeat"

@@ -3,12 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import (
-    AfterValidator,
-    Field,
-    ValidationInfo,
-    field_validator,
-)
+from pydantic import Field, ValidationInfo, field_validator
 
 from branchcrush.config.curves import check_curve, check_share
 from branchcrush.config.fields import Allowed, Positive, Section, number, refusal
@@ -18,29 +13,12 @@ from branchcrush.config.grading_keys import (
     Basis,
     BasisOfFile,
     FileName,
+    Length,
     OfMass,
     OfNumber,
+    Size,
 )
 from branchcrush.config.table_keys import DensityKeys, FileKeys, HistogramKeys, SieveKeys
-from branchcrush.config.units import UNITS
-
-# Of a grain [m]. Outside of them it is the unit that is wrong.
-_SMALLEST, _LARGEST = 1e-9, 1e3
-
-
-def _possible(size, info):
-    unit = info.data.get("unit")
-    if unit and not _SMALLEST <= size * UNITS[unit] <= _LARGEST:
-        raise refusal(
-            f"must be from {_SMALLEST:g} m to {_LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
-            "check it and the unit",
-            unit=unit,
-        )
-    return size
-
-
-Length = number(above=0, unit_of="unit")
-Size = Annotated[Length, AfterValidator(_possible)]
 
 
 class _Sizes(Section):

@@ -13,7 +13,7 @@ from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
-from branchcrush.files.declared import Declared
+from branchcrush.files.declared import DEFAULTS, Declared
 from branchcrush.files.grading_tables import (
     read_density_table,
     read_histogram,
@@ -47,13 +47,8 @@ _CHANNELS = {
     "upper": "the upper edge of each channel",
     "middles": "the middle of each channel, on a {scale} scale",
 }
-
-
-# What is taken where a section says nothing.
-_DEFAULTS = {
-    "sieve": {"openings": "size", "values": "percent_finer"},
-    "density": {"per": "size"},
-}
+# Keys of each form that have a default.
+_FILLED = {"sieve": ("openings", "values"), "density": ("per",), "histogram": ("scale",)}
 
 
 class _Root(Section):
@@ -77,7 +72,8 @@ class GradingReport:
     problems : list of str
         What is to be mended or said, with the keys to paste; empty if the grading is read.
     config_lines : list of str
-        The section as YAML, to be pasted below a sample, with every key that a default filled.
+        The section as YAML, to be pasted below a sample, with every key that a default filled and
+        that may be said without changing how the file is read.
     grading : Grading or None
         What it makes; None if there are problems.
 
@@ -96,7 +92,7 @@ class GradingReport:
     grading: Grading | None = None
 
 
-def grading_report(section: Mapping[str, Any]) -> GradingReport:
+def grading_report(section: Mapping[str, Any], file_to_paste: str | None = None) -> GradingReport:
     """Return how a section of a grading is read, without raising for what is wrong in it.
 
     Parameters
@@ -104,6 +100,8 @@ def grading_report(section: Mapping[str, Any]) -> GradingReport:
     section : mapping
         As the YAML file has it, complete or not. Names of files are relative to the working
         directory.
+    file_to_paste : str, optional
+        Name of the file in the lines to paste, where it is not that of the section.
 
     Returns
     -------
@@ -126,6 +124,8 @@ def grading_report(section: Mapping[str, Any]) -> GradingReport:
         remarks = _remarks(plain)
     except GradingError as error:
         return GradingReport(_meaning(plain), problems=str(error).splitlines())
+    filled = _filled(plain)
+    named = {} if file_to_paste is None else {"file": file_to_paste}
     # A mixture has no unit of its own.
     unit = plain.get("unit", "mm")
     sizes = 2 * grading.mass_ppf([share / 100 for share in SHARES]) / UNITS[unit]
@@ -133,8 +133,8 @@ def grading_report(section: Mapping[str, Any]) -> GradingReport:
         meaning=_meaning(plain) + remarks,
         d_values={f"D{share}": float(size) for share, size in zip(SHARES, sizes, strict=True)},
         unit=unit,
-        warnings=_warnings(plain),
-        config_lines=_config_lines(plain),
+        warnings=_warnings(filled),
+        config_lines=_config_lines({**plain, **named, **filled}),
         grading=grading,
     )
 
@@ -151,7 +151,7 @@ def _meaning(plain):
     elif form == "density":
         lines = [
             f"sizes: in {unit}",
-            f"values: a density by {plain['basis']}, per {declared.per or 'size'}",
+            f"values: a density by {plain['basis']}, per {declared.taken('per')}",
         ]
     elif form == "histogram":
         sizes = _CHANNELS[plain["sizes"]].format(scale=declared.scale)
@@ -183,19 +183,29 @@ def _remarks(plain):
 
 def _filled(plain):
     """Return the keys that a default fills."""
-    defaults = _DEFAULTS.get(plain["form"], {})
-    return {key: default for key, default in defaults.items() if key not in plain}
+    keys = [key for key in _FILLED.get(plain["form"], ()) if key not in plain]
+    filled = {key: DEFAULTS[key] for key in keys}
+    # Said, a scale also tells how channels go on beyond the sizes in the file.
+    if "scale" in filled and _edges(plain) != _edges({**plain, **filled}):
+        del filled["scale"]
+    return filled
 
 
-def _warnings(plain):
+def _edges(plain):
+    """Return the edges of the channels of a file, or nothing if it cannot be read."""
+    try:
+        return read_histogram(plain["file"], Declared.of(plain)).sizes.tolist()
+    except GradingError:
+        return None
+
+
+def _warnings(filled):
     """Return which keys a default filled."""
     return [
         f"{key} is not given, and {default} is taken: nothing in the file speaks against it"
-        for key, default in _filled(plain).items()
+        for key, default in filled.items()
     ]
 
 
-def _config_lines(plain):
-    """Return the section with the keys that defaults filled."""
-    whole = {"grading": {**plain, **_filled(plain)}}
-    return yaml.safe_dump(whole, sort_keys=False, allow_unicode=True).splitlines()
+def _config_lines(section):
+    return yaml.safe_dump({"grading": section}, sort_keys=False, allow_unicode=True).splitlines()

@@ -66,7 +66,7 @@ def against_density(table: Table, declared: Declared, rows: Sequence[Row]) -> li
     words, against = table.words, _against_both(table, declared)
     sizes = [row.values[0] for row in rows]
     values = [row.values[1] for row in rows]
-    per, said = declared.per or "size", words.per()
+    per, said = declared.taken("per"), words.per()
     if words.cumulative():
         against.append(
             f'the words "{words.value}" say a cumulative curve: give form: sieve with values: '
@@ -151,7 +151,7 @@ def _histogram_readings(rows, declared, words, kinds):
         for kind in kinds:
             edges, shares, _, wrong = edges_of_channels(rows, replace(declared, sizes=kind))
             if not wrong:
-                grading = from_histogram(edges, shares, _by(basis), scale=declared.scale or "log")
+                grading = from_histogram(edges, shares, _by(basis), scale=declared.taken("scale"))
                 keys = f"form: histogram, basis: {basis}, sizes: {kind}"
                 keys += f", scale: {declared.scale}" if declared.scale else ""
                 median = float(grading.mass_ppf(0.5))

@@ -4,8 +4,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-VALUES = ("percent_finer", "percent_coarser", "percent_retained", "mass_retained")
-OPENINGS = ("size", "phi", "astm_e11", "tyler_mesh")
+# What each key may say. A test holds the configuration to it.
+WORDS = {
+    "size": ("diameter", "radius"),
+    "basis": ("mass", "volume", "number"),
+    "values": ("percent_finer", "percent_coarser", "percent_retained", "mass_retained"),
+    "openings": ("size", "phi", "astm_e11", "tyler_mesh"),
+    "sizes": ("edges", "lower", "upper", "middles"),
+    "scale": ("log", "linear"),
+    "per": ("size", "log_size", "phi"),
+}
+# What is taken where a section says nothing.
+DEFAULTS = {"values": "percent_finer", "openings": "size", "per": "size", "scale": "log"}
 
 
 @dataclass(frozen=True)
@@ -58,12 +68,16 @@ class Declared:
     @property
     def kind(self) -> str:
         """What values are, by the key or by its default."""
-        return self.values or "percent_finer"
+        return self.taken("values")
 
     @property
     def scale_of_openings(self) -> str:
         """What openings are, by the key or by its default."""
-        return self.openings or "size"
+        return self.taken("openings")
+
+    def taken(self, key: str) -> str:
+        """Return what a key says, or its default."""
+        return getattr(self, key) or DEFAULTS[key]
 
     def other(self, values: str, openings: str, unit: str | None = None) -> "Declared":
         """Return the same but for what the columns mean."""
@@ -71,6 +85,4 @@ class Declared:
 
     def keys(self, names: tuple[str, ...]) -> str:
         """Return keys with their values, or the defaults', as they are pasted."""
-        defaults = {"values": "percent_finer", "openings": "size", "per": "size"}
-        said = {name: getattr(self, name) or defaults.get(name) for name in names}
-        return ", ".join(f"{name}: {value}" for name, value in said.items())
+        return ", ".join(f"{name}: {self.taken(name)}" for name in names)

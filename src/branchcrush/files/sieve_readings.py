@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from branchcrush.errors import GradingError
 from branchcrush.files.columns import Table
-from branchcrush.files.declared import OPENINGS, VALUES, Declared
+from branchcrush.files.declared import WORDS, Declared
 from branchcrush.files.openings import UNITS_IN_MM, Label, label_of
 from branchcrush.files.rows import Row
 from branchcrush.files.sieve_tables import sieve_curve, value_of
@@ -180,7 +180,7 @@ def _candidates(table, declared, free) -> Iterator[Declared]:
     words, pattern = table.words, _pattern(table.rows, declared)
     labels = [label_of(row.cells[0]) for row in table.rows]
     openings = words.openings() or _suggested(labels, declared, free)
-    values = words.values() or set(VALUES)
+    values = words.values() or set(WORDS["values"])
     if not words.values() and pattern != "each":
         # Grams can be any numbers.
         values = values - {"mass_retained"}
@@ -189,8 +189,8 @@ def _candidates(table, declared, free) -> Iterator[Declared]:
     if "percent_retained" in values and pattern == "sum":
         values = values - {"mass_retained"}
     units = words.units() or {declared.unit}
-    for opening in OPENINGS:
-        for value in VALUES:
+    for opening in WORDS["openings"]:
+        for value in WORDS["values"]:
             for unit in sorted(units & set(UNITS_IN_MM)) if opening == "size" else ["mm"]:
                 if opening in openings and value in values:
                     yield declared.other(value, opening, unit)

@@ -115,6 +115,8 @@ def _parsed(rows, declared, name):
         elif _is_pan(label, declared, smallest):
             if value is None and row.cells[1]:
                 problems.append(_no_number(row, name, row.cells[1]))
+            elif value is not None and not 0 <= value <= most:
+                problems.append(_out_of_range(row, name, value, most))
             else:
                 pans.append((row.line, value))
         else:
@@ -166,9 +168,13 @@ def _wrong_row(row, label, value, declared, name, most):
     if value is None:
         problems.append(_no_number(row, name, row.cells[1]))
     elif not 0 <= value <= most:
-        allowed = "not be negative" if most == math.inf else f"lie between 0 and {most:g}"
-        problems.append(f"line {row.line}: {name} = {value:g}; must {allowed}: correct it")
+        problems.append(_out_of_range(row, name, value, most))
     return problems
+
+
+def _out_of_range(row: TextRow, name: str, value: float, most: float) -> str:
+    allowed = "not be negative" if most == math.inf else f"lie between 0 and {most:g}"
+    return f"line {row.line}: {name} = {value:g}; must {allowed}: correct it"
 
 
 def _no_number(row: TextRow, name: str, cell: str) -> str:
@@ -250,7 +256,12 @@ def _from_retained(rows, pans, totals, declared):
         for line, value in pans
         if rows
     ]
-    remarks += [f"line {line}: the total agrees with the sum, {whole:g}" for line, _ in totals]
+    remarks += [
+        f"line {line}: the row of the total has no number and is passed over"
+        if value is None
+        else f"line {line}: the total agrees with the sum, {whole:g}"
+        for line, value in totals
+    ]
     return SieveCurve(curve, [], remarks)
 
 

@@ -117,6 +117,43 @@ def narrower_range(grading: Grading, grains: int, solid_fraction: float) -> Narr
     return best
 
 
+def narrower_words(
+    grading: Grading,
+    grains: int,
+    solid_fraction: float,
+    unit: str,
+    metres: float,
+    size: str = "diameter",
+) -> str:
+    """Return which narrower range grains that are too few could stand for, in the user's unit.
+
+    Parameters
+    ----------
+    grading : Grading
+    grains : int
+    solid_fraction : float
+        At the end of the loading [-].
+    unit : str
+    metres : float
+        [m]
+    size : {"diameter", "radius"}
+        As for `NarrowerRange.words`.
+
+    Returns
+    -------
+    str
+        To be put behind the message of `gradings.representativity`; empty where there is none.
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.forms import fractal
+    >>> narrower_words(fractal(5e-6, 1e-3, 2.6), 2000, 0.64, "mm", 1e-3)
+    ': with 2000 grains diameters 0.497 to 2 mm, 49 % of the mass'
+    """
+    part = narrower_range(grading, grains, solid_fraction)
+    return "" if part is None else f": with {grains} grains {part.words(unit, metres, size)}"
+
+
 class _Cuts:
     """What is read off a grading for any part of it, without making the part a grading."""
 

@@ -15,7 +15,7 @@ from branchcrush.packings.geometry import UNIT_SPHERE
 # The coarsest 10 % of the mass carry most of the load; few grains of them make a packing a sample
 # of its own. A box of few diameters is made of its walls.
 _REFUSED_GRAINS, _ENOUGH_GRAINS = 5, 10
-_REFUSED_DIAMETERS, _ENOUGH_DIAMETERS = 3, 5
+_REFUSED_DIAMETERS, ENOUGH_DIAMETERS = 3, 5
 _COARSE_SHARE = 0.1
 # A truncated tail reaches far beyond its last grain: the largest is where this mass is finer.
 _MASS_OF_LARGEST = 0.999
@@ -92,7 +92,7 @@ def representativity(grading: Grading, grains: int, solid_fraction: float) -> Re
     if verdict != "accept":
         judged = "too few for this grading" if verdict == "refuse" else "few for this grading"
         message += (
-            f": {judged}; {_ENOUGH_GRAINS} grains and {_ENOUGH_DIAMETERS} diameters need "
+            f": {judged}; {_ENOUGH_GRAINS} grains and {ENOUGH_DIAMETERS} diameters need "
             f"{needed:.0f} grains, or a narrower grading"
         )
     return Representativity(
@@ -134,7 +134,7 @@ def grains_needed(coarse_share: ArrayLike, bulk_over_largest: ArrayLike) -> NDAr
     # A whole number that rounding lifted a little needs no grain more.
     return np.maximum(
         np.ceil(_ENOUGH_GRAINS / np.asarray(coarse_share) * (1 - 1e-9)),
-        np.ceil(_ENOUGH_DIAMETERS**3 / np.asarray(bulk_over_largest) * (1 - 1e-9)),
+        np.ceil(ENOUGH_DIAMETERS**3 / np.asarray(bulk_over_largest) * (1 - 1e-9)),
     )
 
 

@@ -10,12 +10,10 @@ from typing import Any
 
 import pandas as pd
 
+from branchcrush.gradings.representativity import ENOUGH_DIAMETERS
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.samples.convergence import convergence_words
 from branchcrush.samples.note_effects import effect_of
-
-# Below this many largest diameters in the edge of the cell a packing is noted.
-DIAMETERS_LIMIT = 5
 
 
 @dataclass(frozen=True)
@@ -62,6 +60,8 @@ class Note:
 def overlap_notes(last: pd.DataFrame) -> list[Note]:
     """Return the note of packings whose overlaps are no longer small at the end of their loading.
 
+    The median of those that are certified is judged.
+
     Parameters
     ----------
     last : DataFrame
@@ -71,17 +71,17 @@ def overlap_notes(last: pd.DataFrame) -> list[Note]:
     -------
     list of Note
     """
-    deep = last["overlap_ratio_95"]
-    if not (last["certified"] & (deep > OVERLAP_FLAG)).any():
+    certified = last[last["certified"]]
+    value = float(certified["overlap_ratio_95"].median())
+    if not value > OVERLAP_FLAG:
         return []
-    value = float(deep.median())
     return [
         Note(
             check="overlaps",
             value=value,
             limit=OVERLAP_FLAG,
-            finding=f"overlaps at the end: {last['median_overlap_ratio'].median():.1%} of the "
-            f"smaller radius in the median, {value:.1%} at 95 % of the contacts, noted from "
+            finding=f"overlaps at the end: {certified['median_overlap_ratio'].median():.1%} of "
+            f"the smaller radius in the median, {value:.1%} at 95 % of the contacts, noted from "
             f"{OVERLAP_FLAG:.0%}",
             effect=effect_of("overlaps", value),
             advice="load less far, or read the numbers against φ − φ_J as those of the contact "
@@ -112,7 +112,7 @@ def grains_notes(representativity: Mapping[str, Any]) -> list[Note]:
         Note(
             check="few grains",
             value=diameters,
-            limit=DIAMETERS_LIMIT,
+            limit=ENOUGH_DIAMETERS,
             finding="; ".join(representativity["warnings"]),
             effect=effect_of("few grains", diameters),
             advice=f"raise grains to {representativity['grains_needed']}, or narrow the grading",

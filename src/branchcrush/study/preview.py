@@ -12,7 +12,7 @@ from branchcrush.crushing.model import admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
-from branchcrush.gradings.narrower import narrower_range
+from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import realised_gap, representativity
 from branchcrush.gradings.size_fits import SizeFit
 from branchcrush.loading.sample import Sample
@@ -209,8 +209,7 @@ def _few_grains(sample, standing, unit, refused):
     """Return whether grains are few for the grading, and what that leads to."""
     if standing.verdict == "accept":
         return []
-    part = narrower_range(sample.grading, sample.grains, sample.end)
-    narrower = "" if part is None else f": with {sample.grains} grains {part.words(*unit)}"
+    narrower = narrower_words(sample.grading, sample.grains, sample.end, *unit)
     if standing.verdict == "refuse" and refused:
         leads = "the run refuses this unless allow_unrepresentative: true"
     else:

@@ -53,6 +53,16 @@ def test_a_table_is_told_with_its_sizes_and_the_lines_to_paste(folder, capsys):
         assert f"    {line}\n" in pasted
 
 
+def test_lines_to_paste_name_the_file_as_the_study_beside_it_does(folder, capsys):
+    (folder / "my sand").mkdir()
+    (folder / "soil.csv").rename(folder / "my sand" / "soil.csv")
+    for place in ("my sand/soil.csv", str(folder / "my sand" / "soil.csv")):
+        _, out, _ = printed(capsys, "grading", place, "--unit", "mm")
+        pasted = out.split("to paste below a sample:\n")[1]
+        assert "      file: soil.csv\n" in pasted and "my sand" not in pasted
+        assert "file: relative to the folder that the study runs in" in pasted
+
+
 def test_a_curve_through_sizes_needs_no_file(folder, capsys):
     keys = "--form lognormal --basis mass --size diameter --unit um --d10 82 --d50 200 --d90 486"
     code, out, _ = printed(capsys, "grading", *keys.split(), "--min", "10", "--max", "4000")
@@ -69,6 +79,14 @@ def test_a_picture_is_drawn_where_it_is_asked_for(folder, capsys):
     assert (folder / "a.png").stat().st_size > 1000
 
 
+@pytest.mark.parametrize("name", ["a.pdf", "a.foo", "a"])
+def test_a_picture_that_is_no_png_is_a_usage_error(folder, capsys, name):
+    code, out, err = printed(capsys, "grading", "soil.csv", "--unit", "mm", "--picture", name)
+    assert code == 2 and out == ""
+    assert err.splitlines()[-1].endswith(f"argument --picture: {name!r} must end in .png")
+    assert not (folder / name).exists()
+
+
 def test_the_sketch_rises_from_the_finest_to_the_coarsest_grain(folder, capsys):
     _, out, _ = printed(capsys, "grading", "soil.csv", "--unit", "mm")
     rows = [line for line in out.splitlines() if "|" in line]
@@ -82,7 +100,6 @@ def test_the_sketch_rises_from_the_finest_to_the_coarsest_grain(folder, capsys):
     ("keys", "words"),
     [
         ("soil.csv", "grading.unit: missing"),
-        ("nowhere.csv --unit mm", "no such file"),
         ("soil.csv --unit um --form histogram", "grading.sizes: missing"),
         ("--form lognormal --basis mass --size diameter --unit um --d50 200", "two or three of"),
     ],
@@ -98,6 +115,13 @@ def test_an_unknown_word_is_a_usage_error(folder, capsys):
     code, _, err = printed(capsys, "grading", "soil.csv", "--unit", "furlong")
     assert code == 2
     assert "invalid choice: 'furlong'" in err
+
+
+@pytest.mark.parametrize("place", ["nowhere.csv", "nowhere/soil.csv"])
+def test_no_such_table_is_another_exit_code(folder, capsys, place):
+    code, out, err = printed(capsys, "grading", place, "--unit", "mm")
+    assert code == 2 and out == ""
+    assert err.startswith(f"error: {place}: there is no such file in") and err.count("\n") == 1
 
 
 # --- check ---------------------------------------------------------------------------------------

@@ -1,14 +1,24 @@
 """Sections of the configuration that describe a grading: what is valid, and what is refused how."""
 
 from copy import deepcopy
+from typing import Literal, get_args, get_origin
 
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
 from branchcrush.config.build import grading_of, size_fits
 from branchcrush.config.fields import Section
-from branchcrush.config.gradings import GradingSection, grading_data_files
+from branchcrush.config.gradings import (
+    DensityGrading,
+    GradingSection,
+    HistogramGrading,
+    RadiiGrading,
+    SieveGrading,
+    grading_data_files,
+)
 from branchcrush.config.messages import problem
+from branchcrush.config.units import UNITS
+from branchcrush.files.declared import DEFAULTS, WORDS
 
 SIZES = {"size": "diameter", "unit": "mm"}
 ENDS = {**SIZES, "basis": "mass", "min": 0.5, "max": 4.0}
@@ -322,6 +332,27 @@ def test_openings_that_are_no_sizes_need_no_unit(openings):
     assert checked(section).unit == "mm"
     assert checked({**section, "unit": "um"}).unit == "um"
     assert message_of({**section, "openings": "size"}).startswith("grading.unit: missing")
+
+
+# --- words ---------------------------------------------------------------------------------------
+
+
+def words_in(annotation):
+    """Return the words of all Literals within an annotation."""
+    if get_origin(annotation) is Literal:
+        return set(get_args(annotation))
+    return set().union(*(words_in(part) for part in get_args(annotation)))
+
+
+FORMS_OF_FILES = (SieveGrading, DensityGrading, HistogramGrading, RadiiGrading)
+
+
+@pytest.mark.parametrize("key", [*WORDS, "unit"])
+def test_words_of_the_keys_of_tables_are_those_that_readers_know(key):
+    fields = [form.model_fields[key] for form in FORMS_OF_FILES if key in form.model_fields]
+    known = {**WORDS, "unit": tuple(UNITS)}[key]
+    assert set().union(*(words_in(field.annotation) for field in fields)) == set(known)
+    assert DEFAULTS.get(key, known[0]) in known
 
 
 # --- files ---------------------------------------------------------------------------------------

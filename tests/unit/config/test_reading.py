@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.reading import grading_report
+from branchcrush.files.declared import WORDS
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "gradings"
 MM = {"form": "sieve", "basis": "mass", "size": "diameter", "unit": "mm"}
@@ -168,6 +169,16 @@ def test_sizes_with_percent_finer_need_no_keys(report_of, content, keys):
         ("4,0\n2,5\n1,5\nTotal,12\n", {"values": "mass_retained"}, "line 4: the total is 12, and"),
         ("4,0\n2,0\n1,0\n", {"values": "mass_retained"}, "nothing is retained"),
         (
+            "4,0\n2,50\n1,43\npan,-7\n",
+            {"values": "mass_retained"},
+            "line 4: mass retained = -7; must not be negative: correct it",
+        ),
+        (
+            "4,0\n2,50\n1,43\npan,107\n",
+            {"values": "percent_retained"},
+            "line 4: percent retained = 107; must lie between 0 and 100: correct it",
+        ),
+        (
             "4,0\n2,5\n2,5\n1,5\n",
             {"values": "mass_retained"},
             "line 3: opening 2 has mass retained",
@@ -185,6 +196,13 @@ def test_sizes_with_percent_finer_need_no_keys(report_of, content, keys):
 )
 def test_what_is_wrong_is_told_with_what_to_do(report_of, content, keys, words):
     assert words in "\n".join(report_of(content, **keys).problems)
+
+
+def test_total_without_a_number_agrees_with_nothing(report_of):
+    report = report_of("4,0\n2,5\n1,5\nTotal,\n", values="mass_retained", min=0.5)
+    assert report.problems == []
+    said = [line for line in report.meaning if "total" in line]
+    assert said == ["line 4: the row of the total has no number and is passed over"]
 
 
 def test_retained_shares_are_never_to_be_corrected(report_of):
@@ -246,6 +264,27 @@ def test_report_has_lines_to_paste_with_the_defaults_filled():
     assert "  openings: size" in report.config_lines
     assert "  values: percent_finer" in report.config_lines
     assert len(report.warnings) == 2
+
+
+def test_lines_to_paste_have_the_scale_where_channels_stay_the_same_by_it(report_of):
+    form = {"form": "histogram", "sizes": "edges"}
+    report = report_of("1,30\n2,70\n4,\n", **form)
+    assert "  scale: log" in report.config_lines
+    assert any(line.startswith("scale is not given, and log") for line in report.warnings)
+    # The last channel ends at 4, as the others are even; by a log scale it would at 4.5.
+    linear = report_of("1,10\n2,20\n3,70\n", **{**form, "sizes": "lower"})
+    assert any("channels go from 1 to 4 mm" in line for line in linear.meaning)
+    assert not any("scale" in line for line in linear.config_lines)
+
+
+@pytest.mark.parametrize("key", ["values", "openings", "sizes", "per"])
+def test_every_word_has_a_meaning_of_its_own(key):
+    form = {"sizes": "histogram", "per": "density"}.get(key, "sieve")
+    section = {**MM, "form": form, "file": "nowhere.csv"}
+    if form == "histogram":
+        section["scale"] = "log"
+    meanings = {str(grading_report({**section, key: word}).meaning) for word in WORDS[key]}
+    assert len(meanings) == len(WORDS[key])
 
 
 def test_report_of_a_section_with_mistakes_names_its_keys():

@@ -22,14 +22,20 @@ def ends(overlaps, certified=True):
 
 
 @pytest.mark.parametrize(
-    ("overlaps", "count"), [([0.049, 0.05], 0), ([0.02, 0.051], 1), ([0.08, 0.09], 1)]
+    ("overlaps", "values"),
+    [([0.049, 0.05], []), ([0.02, 0.051], []), ([0.049, 0.053], [0.051]), ([0.08, 0.09], [0.085])],
 )
-def test_overlaps_are_noted_from_five_per_cent_of_the_radius(overlaps, count):
-    assert len(notes.overlap_notes(ends(overlaps))) == count
+def test_overlaps_are_noted_from_a_median_of_five_per_cent_of_the_radius(overlaps, values):
+    found = notes.overlap_notes(ends(overlaps))
+    assert [note.value for note in found] == pytest.approx(values)
+    assert all(note.value > note.limit for note in found)
 
 
 def test_overlaps_of_packings_that_are_not_certified_are_no_note():
     assert notes.overlap_notes(ends([0.2, 0.2], certified=False)) == []
+    (note,) = notes.overlap_notes(ends([0.06, 0.2, 0.3], certified=[True, False, False]))
+    assert note.value == 0.06
+    assert "3.0% of the smaller radius in the median, 6.0% at 95 %" in note.finding
 
 
 def test_note_of_overlaps_has_value_limit_and_the_medians():
