@@ -31,6 +31,7 @@ WITHOUT = re.compile(
     r"branch_[xyz]|(initial|ultimate)_moment"
     r"|representativity\.(expected_)?(largest_diameter|box_edge)"
     r"|(convergence\[\]\.)?(value(_at_twice_the_steps)?|(standard_error_of_)?difference)"
+    r"|(convergence\[\]\.)?(could_see|tolerance)|notes\[\]\.(value|limit)"
 )
 # Names of LAMMPS and of NumPy's arrays are as their readers want them.
 OTHERS = (".dump.gz", ".npz")
