@@ -11,6 +11,7 @@ from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study
 from branchcrush.config.file import config_file_problem
 from branchcrush.gradings.representativity import representativity
+from branchcrush.study.summary import summary
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
@@ -77,13 +78,17 @@ def test_every_command_is_there():
     assert set(named) <= set(targets)
 
 
-def test_the_numbers_of_the_page_are_those_of_the_run_beside_it():
-    lines = (ROOT / "docs" / "results" / "tutorial.csv").read_text(encoding="utf-8").splitlines()
-    row = next(csv.DictReader(lines[1:]))
+def test_the_numbers_of_the_page_are_those_of_the_run_beside_it(tmp_path):
+    table = (ROOT / "docs" / "results" / "tutorial.csv").read_text(encoding="utf-8")
+    row = next(csv.DictReader(table.splitlines()[1:]))
+    (tmp_path / "comparison.csv").write_text(table, encoding="utf-8")
     n, low, high = (
         f"{float(row[name]):.2f}" for name in ("exponent", "exponent_low", "exponent_high")
     )
-    assert f"n = {n} ({low} to {high}), 95 % interval of {row['seeds_certified']} seeds" in PAGE
+    closing = summary(tmp_path).splitlines()[0]
+    assert f"> {closing}\n" in PAGE
+    assert f"n = {n} (95 % interval {low} to {high}" in PAGE
+    assert f"*{row['verdict']}*" in PAGE
     assert f"θ = {float(row['theta']):.2f}" in PAGE
     assert f"φ_J = {float(row['jamming_solid_fraction']):.3f}" in PAGE
     assert f"φ = {float(row['solid_fraction']):.3f}" in PAGE
