@@ -39,6 +39,8 @@ def summary(results: str | PathLike[str], shown_as: str | PathLike[str] | None =
 def _sample_line(row: Mapping[str, str]) -> str:
     """Return what one sample came to."""
     name = f"{row['sample']}: {row['verdict']}"
+    if reasons := row.get("verdict_reasons"):  # a table of an earlier version has none
+        name += f" ({reasons})"
     if not row["exponent"]:
         return f"{name}, no exponent: {row['reason']}"
     exponent = f"n = {float(row['exponent']):.2f}"

@@ -132,7 +132,16 @@ def test_a_sound_study_is_said_to_be(folder, capsys, place):
     study(folder, 500)
     code, out, err = printed(capsys, "check", *place)
     assert (code, err) == (0, "")
-    assert out.startswith("mine: uniform, 500 grains, 2 packings\nsound: ")
+    assert out.startswith("mine: uniform, 500 grains, 2 packings\nsound: branchcrush preview tells")
+    assert "--directory" not in out
+
+
+def test_the_commands_of_a_sound_study_name_its_folder(folder, capsys, monkeypatch):
+    study(folder, 500)
+    monkeypatch.chdir(folder.parent)
+    _, out, _ = printed(capsys, "check", folder.name)
+    assert f"sound: branchcrush preview {folder.name} tells" in out
+    assert f"snakemake --cores 2 --directory {folder.name} runs it" in out
 
 
 def test_all_problems_are_named_at_once(folder, capsys):
