@@ -264,8 +264,10 @@ def _to_do(declared, asked, others):
         return "Paste the keys that are meant into the grading"
     units = {other.unit for other in others}
     unit = units.pop() if len(units) == 1 else "its unit"
-    sizes = " and ".join(f"{word}, the size of that grain in {unit}" for word in sorted(asked))
-    return "Type the command that is meant" + (f", with a number for {sizes}" if asked else "")
+    sizes = " and ".join(
+        f"the size of the {word.lower()} grain in {unit} for {word}" for word in sorted(asked)
+    )
+    return "Type the command that is meant" + (f", with {sizes}" if asked else "")
 
 
 def _correct(table, declared, curve):

@@ -171,7 +171,7 @@ def test_a_refusal_names_the_command_that_reads_the_table(folder, capsys):
     command = "branchcrush grading 'my sand.csv' --unit mm --values percent_retained"
     command += " --openings size --min SMALLEST"
     assert code == 1 and f"`{command}` D50 = " in err and "Paste" not in err
-    assert "Type the command that is meant, with a number for SMALLEST" in err
+    assert "is meant, with the size of the smallest grain in mm for SMALLEST" in err
     code, _, err = printed(capsys, *shlex.split(command.replace("SMALLEST", "0.1"))[1:])
     assert (code, err) == (0, "")
 
