@@ -39,10 +39,10 @@ def summary(results: str | PathLike[str], shown_as: str | PathLike[str] | None =
 def _sample_line(row: Mapping[str, str]) -> str:
     """Return what one sample came to."""
     name = f"{row['sample']}: {row['verdict']}"
-    if reasons := row.get("verdict_reasons"):  # a table of an earlier version has none
-        name += f" ({reasons})"
     if not row["exponent"]:
         return f"{name}, no exponent: {row['reason']}"
+    if reasons := row.get("verdict_reasons"):  # a table of an earlier version has none
+        name += f" ({reasons})"
     exponent = f"n = {float(row['exponent']):.2f}"
     if row["exponent_low"]:
         low, high, confidence = (
