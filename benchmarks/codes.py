@@ -133,7 +133,7 @@ def run_tables(case, folder, name, checkout=CHECKOUT):
         for table in ("path", "steps")
     )
     evaluations = int(path["force_evaluations"][-1])
-    tables = Compression(path, {}, {}, steps)
+    tables = Compression(path=path, contacts={}, walls={}, steps=steps, compressed={})
     return {**taken, **report, "evaluations": evaluations, "tables": tables}
 
 

@@ -4,6 +4,7 @@ import sys
 
 import pytest
 
+from benchmarks import large
 from benchmarks.before import compared
 from benchmarks.measure import MemoryOfChildren, run_timed
 from benchmarks.sizes import estimate, line_of_size, power_of_size, shares
@@ -104,3 +105,12 @@ def test_memory_of_two_processes_together():
     with MemoryOfChildren(0.05) as memory:
         run_timed([sys.executable, "-c", f"{both}{fill}; p.wait()"])
     assert 120.0 < memory.peak_MB < 220.0
+
+
+def test_a_state_of_a_small_packing_from_placement_on():
+    result = large.run(grains=(60,), ratio=3.0, solid_fraction=0.72, seeds=(1,), jamming_grains=60)
+    (row,) = result["rows"]
+    assert row["state"]["solid_fraction"] == pytest.approx(0.72)
+    parts = ("approach", "steps", "final")
+    assert row["evaluations"] == sum(row[f"{part}_evaluations"] for part in parts)
+    assert 0.5 < result["jamming_solid_fraction"] < 0.72
