@@ -93,7 +93,7 @@ schema: $(READY) ## config.schema.json, and the pages that are made: tables of k
 	$(BIN)/python docs/results_page.py
 
 test: lint docs ## the linters, the site, then every test
-	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile
+	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 
 lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, types
 	$(BIN)/ruff check .

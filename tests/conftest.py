@@ -6,6 +6,16 @@ from pathlib import Path
 
 import pytest
 
+# The longest first, so that no worker is left with one of them at the end.
+FIRST = ("tests/workflow/test_interrupted.py", "tests/workflow/")
+
+
+def pytest_collection_modifyitems(items):
+    def place(item):
+        return next((n for n, path in enumerate(FIRST) if item.nodeid.startswith(path)), len(FIRST))
+
+    items.sort(key=place)
+
 
 @pytest.fixture(scope="session")
 def lammps_inputs():

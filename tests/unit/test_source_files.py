@@ -60,6 +60,11 @@ def closure(modules):
         ("from branchcrush.files import tables, rows", {"files.tables", "files.rows"}),
         ("from branchcrush.files.tables import read_json as read", {"files.tables"}),
         ("from branchcrush import jobs", {"jobs"}),
+        (
+            "from branchcrush.files import (  # of results\n    tables as a,\n    rows,  # each\n)",
+            {"files.tables", "files.rows"},
+        ),
+        ("from branchcrush.errors import FitError  # , jobs", {"errors"}),
         ("import branchcrush.files.tables, json", {"files.tables"}),
         ("def late():\n    from branchcrush.errors import FitError", {"errors"}),
         ("try:\n    pass\nexcept OSError:\n    import branchcrush.jobs", {"jobs"}),

@@ -1,6 +1,7 @@
 """The workflow in a folder of its own: with a config.yaml alone, or a copy of all that it is."""
 
 import contextlib
+import fcntl
 import io
 import os
 import resource
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from branchcrush.command.main import main
+from tests.workflow import loaded
 
 ROOT = Path(__file__).parents[2]
 
@@ -43,37 +45,41 @@ class Study:
     def configure(self, text):
         (self.folder / "config.yaml").write_text(text)
 
-    def snakemake(self, *arguments, cores=2, wrapped_in=()):
+    def snakemake(self, *arguments, cores=2, wrapped_in=(), new=False):
+        """Run what is typed: in a process that has Snakemake loaded, or in a new one."""
         # The copy's own package comes first, so that a test may edit its modules.
         environment = {
             **os.environ,
             "PYTHONPATH": str(self.source),
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
-        command = [sys.executable, "-m", "snakemake"]
-        command += [] if cores is None else ["--cores", str(cores)]
-        return subprocess.run(
-            [*wrapped_in, *command, "--snakefile", str(self.snakefile), *arguments],
+        command = [] if cores is None else ["--cores", str(cores)]
+        command += ["--snakefile", str(self.snakefile), *arguments]
+        if not (wrapped_in or new):
+            return loaded.snakemake(command, self.folder, environment, timeout=400)
+        before = processor_time()
+        run = subprocess.run(
+            [*wrapped_in, sys.executable, "-m", "snakemake", *command],
             cwd=self.folder,
             env=environment,
             capture_output=True,
             text=True,
             timeout=400,
         )
+        run.processor_time = processor_time() - before
+        return run
 
     def refused(self, *arguments, wrapped_in=()):
         """Return the problems that a run names, having checked that it leaves nothing behind."""
         before = self.contents()
-        spent = processor_time()
         run = self.snakemake(*arguments, cores=1, wrapped_in=wrapped_in)
-        spent = processor_time() - spent
         text = run.stdout + run.stderr
         assert run.returncode == 1, text
         assert "Traceback" not in text, text
         assert "site-packages" not in text and "src/branchcrush" not in text, text
         assert self.contents() == before
         # Of the processor: a busy machine must not fail this.
-        assert spent < 10, text
+        assert run.processor_time < 10, text
         return [line for line in text.splitlines() if line.startswith("config: ")]
 
     def checked(self):
@@ -106,9 +112,21 @@ class Project(Study):
             source = ROOT / name
             copy = shutil.copytree if source.is_dir() else shutil.copy
             copy(source, folder / name)
+        self._move_to(folder)
+        self.configure(TINY)
+
+    @classmethod
+    def copied(cls, source, folder, ignore=None):
+        """Return a copy of a project and of all that was made in its folder."""
+        shutil.copytree(source, folder, ignore=ignore)
+        project = cls.__new__(cls)
+        project._move_to(folder)
+        return project
+
+    def _move_to(self, folder):
+        self.folder = folder
         self.snakefile = folder / "Snakefile"
         self.source = folder / "src"
-        super().__init__(folder)
 
     def planned_rules(self):
         """Return the rules that a run would execute now."""
@@ -157,11 +175,24 @@ def new_project():
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
-    """The tiny study, run to its end."""
-    project = Project(tmp_path_factory.mktemp("study"))
-    run = project.snakemake()
-    assert run.returncode == 0, run.stdout + run.stderr
-    project.output = run.stdout + run.stderr
+    """The tiny study, run to its end by the first process of the tests that asks for it.
+
+    Each process has a copy, which its tests may change as long as they put it back.
+    """
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+    original, output = shared / "finished", shared / "finished.txt"
+    with open(shared / "finished.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not output.exists():
+            shutil.rmtree(original, ignore_errors=True)
+            original.mkdir()
+            run = Project(original).snakemake(new=True)
+            assert run.returncode == 0, run.stdout + run.stderr
+            output.write_text(run.stdout + run.stderr)
+    project = Project.copied(original, tmp_path_factory.mktemp("study") / "copy")
+    project.output = output.read_text()
     return project
 
 

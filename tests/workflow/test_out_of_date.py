@@ -110,11 +110,9 @@ def test_what_read_a_file_before_it_was_done_anew_is_done_anew(seen):
 @pytest.fixture(scope="module")
 def elsewhere(finished, tmp_path_factory):
     """Study and sources in another place, all of another time, without Snakemake's notes."""
-    project = type(finished).__new__(type(finished))
-    project.folder = tmp_path_factory.mktemp("else") / "where"
     unwanted = shutil.ignore_patterns(".snakemake", "*.dump.gz")
-    shutil.copytree(finished.folder, project.folder, ignore=unwanted)
-    project.snakefile, project.source = project.folder / "Snakefile", project.folder / "src"
+    folder = tmp_path_factory.mktemp("else") / "where"
+    project = finished.copied(finished.folder, folder, ignore=unwanted)
     for number, file in enumerate(sorted(project.folder.rglob("*"), reverse=True)):
         os.utime(file, (1.7e9 + number, 1.7e9 + number))
     return project
