@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.crushing.elasticity import Elasticity
 from branchcrush.crushing.forms import ModelForm
-from branchcrush.crushing.resistance import Resistance
+from branchcrush.crushing.resistance import LARGEST, Resistance
 from branchcrush.crushing.yield_line import Control, YieldLine
 
 _ORDER = 24
@@ -82,7 +82,8 @@ def evolve(
     Raises
     ------
     ValueError
-        For loads that are not one row of finite numbers, or stresses below 0.
+        For loads that are not one row of finite numbers, stresses below 0, or loads under which the
+        elastic strain would be 0.5 and more, which no elastic law is meant for.
 
     Examples
     --------
@@ -164,7 +165,12 @@ class _Walk:
             return True
         if falls.size:
             first = falls[0]
-            self._follow(line.top(looks[max(first - 1, 0)], looks[first + 1]))
+            low = float(looks[max(first - 1, 0)])
+            top = line.top(low, float(looks[first + 1]))
+            if float(line.load_at(top)) >= target:  # a peak between two looks
+                self._follow(line.holding(target, low, top))
+                return True
+            self._follow(top)
             if self.crushing < looks[first + 1]:
                 self._jump()
         else:
@@ -178,7 +184,10 @@ class _Walk:
         holds = np.flatnonzero(line.loads[after:] > load)
         if holds.size:
             high = after + holds[0]
-            to = line.holding(load, line.looks[high - 1], line.looks[high])
+            # From where it is when it jumps only to the next look, and to there at least when the
+            # line falls by no more than rounding.
+            to = line.holding(load, max(line.looks[high - 1], self.crushing), line.looks[high])
+            to = to if to > self.crushing else float(line.looks[high])
         else:
             to = float(line.looks[-1])
         before, strain, dissipated = self.crushing, self.strain, self.dissipated
@@ -211,6 +220,11 @@ class _Walk:
     def _load_to(self, strain: float) -> None:
         """Go to a strain at the C that is, and add up the work."""
         form, law = self.line.form, self.line.elasticity
+        elastic = float(form.elastic_strain(strain, self.crushing))
+        if not elastic < LARGEST:
+            raise ValueError(
+                f"an elastic strain of {elastic:.3g}: loads must keep it below {LARGEST}"
+            )
         onset = float(form.total_strain(law.strain_at_energy(0.0), self.crushing))
         low, high = sorted((self.strain, strain))
         middle = min(max(onset, low), high)

@@ -14,7 +14,7 @@ from branchcrush.crushing.elasticity import Elasticity
 from branchcrush.crushing.forms import ModelForm
 
 # Where a yield strain is sought: elastic strains that no contact law is meant to leave.
-_LEAST, _LARGEST = 1e-8, 0.5
+_LEAST, LARGEST = 1e-8, 0.5
 _STEPS = 161
 
 
@@ -122,7 +122,7 @@ class CriticalEnergy:
 
         crushing = np.asarray(crushing, float)
         at = crushing.reshape(-1, 1)
-        steps = np.geomspace(_LEAST, _LARGEST, _STEPS)
+        steps = np.geomspace(_LEAST, LARGEST, _STEPS)
 
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
@@ -174,8 +174,8 @@ class ElasticStrainLimit:
     change: Curve = UNCHANGED
 
     def __post_init__(self) -> None:
-        if not 0 < self.strain <= _LARGEST:
-            raise ValueError(f"an elastic strain from 0 to {_LARGEST:g}: {self.strain:g}")
+        if not 0 < self.strain <= LARGEST:
+            raise ValueError(f"an elastic strain from 0 to {LARGEST:g}: {self.strain:g}")
 
     def excess(
         self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity

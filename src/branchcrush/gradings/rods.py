@@ -219,8 +219,10 @@ def chord_quantile(radius: NDArray, share: NDArray, level: NDArray) -> NDArray:
 def _inserted(length: NDArray, gap: float) -> tuple[NDArray, float]:
     """Put rods on the line, the longest first; return who pushes, and the line's extent."""
     pushes = np.zeros(length.size, dtype=bool)
-    widest = [-gap * float(length[0])]  # a heap gives its least first
-    for number, rod in enumerate(length.tolist()):
+    # The first closes on itself with one gap. A heap gives its least first.
+    widest = [-gap * float(length[0])]
+    pushes[0] = True
+    for number, rod in enumerate(length[1:].tolist(), start=1):
         beside = gap * rod
         left = -widest[0] - beside - rod
         if left < beside:
