@@ -23,23 +23,21 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery quality findings bench publish test lint docs lock clean own-environment
+.PHONY: help run preview example gallery tutorial quality findings bench publish schema test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
 
 run: $(READY) ## the study of config.yaml: results/, its figures and the exponent
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
-	@$(BIN)/python -m branchcrush.study.summary results
 
 preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
-	@$(IN_ENVIRONMENT) snakemake --cores $(CORES) --quiet all -- preview
+	@$(BIN)/branchcrush preview --cores $(CORES)
 
 example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \
 	  || { echo "error: no example called '$(NAME)'; there are: $$(ls examples | tr '\n' ' ')" >&2; exit 1; }
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory examples/$(NAME)
-	@$(BIN)/python -m branchcrush.study.summary examples/$(NAME)/results
 
 # Small copies of figures for the pages that show them.
 SHRINK := $(BIN)/python -c 'import sys; from PIL import Image; i = Image.open(sys.argv[1]); i.thumbnail((1200, 1200)); i.save(sys.argv[2], optimize=True)'
@@ -57,9 +55,18 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
 	$(MADE) > docs/results/gallery_made.txt
 
-quality: $(READY) ## what draft, standard and fine mean: docs/results/quality.csv, a quarter of an hour
+tutorial: $(READY) ## the study of docs/tutorial.md, and the pictures and numbers that it shows
+	$(BIN)/python docs/tutorial.py build/tutorial
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory build/tutorial
+	for figure in fig3_grading loading_path fig5_energy_split exponent_path certificate; do \
+	  $(SHRINK) build/tutorial/results/figures/my_sand/$$figure.png docs/figures/tutorial_$$figure.png; done
+	cp build/tutorial/results/comparison.csv docs/results/tutorial.csv
+	$(MADE) > docs/results/tutorial_made.txt
+
+quality: $(READY) ## what draft, standard and fine mean, and notes of a certificate: docs/quality.md, half an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
+	$(BIN)/python studies/quality/effects.py > docs/results/note_effects.csv
 	$(MADE) > docs/results/quality_made.txt
 
 findings: $(READY) ## what the energy of a branch depends on, in five gradings: docs/energy_split.md, three quarters of an hour on 2 cores
@@ -79,6 +86,11 @@ publish: run ## the figures and tables that README and docs show, from this run
 	for figure in fig4_packing fig5_energy_split exponent_path fig7_branch_lengths certificate; do \
 	  $(SHRINK) results/figures/paper/$$figure.png docs/figures/$$figure.png; done
 	$(MADE) > docs/results/made.txt
+
+schema: $(READY) ## config.schema.json, and the pages that are made: tables of keys, of results, of licences
+	$(BIN)/python -m branchcrush.config.json_schema
+	$(BIN)/python docs/licences.py
+	$(BIN)/python docs/results_page.py
 
 test: lint docs ## the linters, the site, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile

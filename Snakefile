@@ -1,32 +1,24 @@
 """branchcrush: from a grading to the energy split of its branches and the crushing model."""
 
-from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
-
-from branchcrush.config.schema import checked_config
-from branchcrush.config.file import config_file_problem
-from branchcrush.errors import ConfigError
 
 min_version("9.17")
 
-if "samples" not in config:  # none was named on the command line
-    if problem := config_file_problem("config.yaml"):
-        raise WorkflowError(problem)
 
-    configfile: "config.yaml"
+include: "workflow/rules/settings.smk"
 
 
-try:
-    if workflow.is_main_process:
-        from branchcrush.config.checks import checked_study
-
-        SETTINGS = checked_study(config)
-    else:  # a job of a study that was checked
-        SETTINGS = checked_config(config)
-except ConfigError as error:
-    raise WorkflowError(str(error)) from None
+# The first, and so the default, but not a module's over a rule of the workflow that uses it.
+rule all:
+    input:
+        "results/comparison.csv",
+        "results/datapackage.json",
+        "results/report.html",
+        "results/findings.html",
 
 
+include: "workflow/rules/out_of_date.smk"
+include: "workflow/rules/one_run.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/compression.smk"
 include: "workflow/rules/grading.smk"
@@ -44,11 +36,3 @@ onstart:
     # each second from then on.
     if workflow.local_exec:
         workflow.scheduler.job_rate_limiter = None
-
-
-rule all:
-    default_target: True
-    input:
-        "results/comparison.csv",
-        "results/report.html",
-        "results/findings.html",

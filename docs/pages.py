@@ -20,7 +20,13 @@ GATHERED = (
     "README.md",
     "CHANGELOG.md",
     "CITATION.cff",
+    "CODE_OF_CONDUCT.md",
     "CONTRIBUTING.md",
+    "LICENSE",
+    "SECURITY.md",
+    "config.schema.json",
+    "config.yaml",
+    "config/README.md",
     "benchmarks/*.py",
     "benchmarks/peers/*.md",
     "benchmarks/results/*",
@@ -28,9 +34,17 @@ GATHERED = (
     "examples/*/*",
     "examples/*/figures/*",
     "lammps_inputs/*",
+    "profiles/default/config.yaml",
     "studies/*/config.yaml",
 )
-FOR_SPHINX = ("docs/conf.py", "docs/pages.py", "docs/_static")
+FOR_SPHINX = (
+    "docs/conf.py",
+    "docs/licences.py",
+    "docs/pages.py",
+    "docs/results_page.py",
+    "docs/tutorial.py",
+    "docs/_static",
+)
 # Folders without a README that pages link to: the title of the page that lists what is in them.
 LISTED = {
     "benchmarks/results": "Results of the benchmarks",

@@ -21,6 +21,10 @@ class SimulationError(BranchcrushError):
     """LAMMPS cannot be loaded, stopped, or ended in a state that fails its checks."""
 
 
+class RunError(BranchcrushError):
+    """The folder is another run's. The message names it."""
+
+
 class FitError(BranchcrushError):
     """The data carry too little to fit."""
 

@@ -8,11 +8,15 @@ from os import PathLike
 from pathlib import Path
 
 from branchcrush.errors import BranchcrushError
+from branchcrush.lammps.processes import end_with_parent
+from branchcrush.runs import belongs_to_run, join_run
 
 
 @contextlib.contextmanager
 def job(log: str | PathLike[str]) -> Iterator[None]:
     """Turn an error of the package into one message and a failed job; log anything else whole.
+
+    A job of a run ends when the run does, whichever way: see `runs.join_run`.
 
     Parameters
     ----------
@@ -36,6 +40,10 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
     ...         print(Path(folder, "fit.log").read_text(), end="")
     branchcrush: no packing carries load
     """
+    if belongs_to_run():
+        # A shell may stand between this process and the run.
+        end_with_parent()
+        join_run()
     log = Path(log)
     log.parent.mkdir(parents=True, exist_ok=True)
     log.touch()

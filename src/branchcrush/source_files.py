@@ -2,13 +2,14 @@
 
 import ast
 import hashlib
+from collections.abc import Iterable
 from functools import cache
 from os import PathLike
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
-# How a job reports does not change what it writes.
-_NO_RESULT = {"jobs"}
+# How a job reports, and what it notes of itself, does not change what it writes.
+_NO_RESULT = {"jobs", "records"}
 
 
 @cache
@@ -68,13 +69,17 @@ def source_files(path: str | PathLike[str]) -> list[str]:
     return sorted(str(_file(module)) for module in seen)
 
 
-def source_digest(path: str | PathLike[str]) -> str:
-    """Return a text that changes with the files of this package that a Python file imports.
+def source_digest(path: str | PathLike[str], others: Iterable[str | PathLike[str]] = ()) -> str:
+    """Return a text that changes with a Python file and the files of this package that it imports.
+
+    Where the files lie does not change it.
 
     Parameters
     ----------
     path : path-like
         As for `source_files`.
+    others : iterable of path-like
+        Files that it reads besides, as templates and scripts of LAMMPS.
 
     Returns
     -------
@@ -87,8 +92,9 @@ def source_digest(path: str | PathLike[str]) -> str:
     64
     """
     digest = hashlib.sha256()
-    for file in map(Path, source_files(path)):
-        digest.update(f"{file.relative_to(_PACKAGE)} {_digest(file)}\n".encode())
+    for file in map(Path, [path, *source_files(path), *others]):
+        name = file.relative_to(_PACKAGE) if file.is_relative_to(_PACKAGE) else file.name
+        digest.update(f"{name} {_digest(file)}\n".encode())
     return digest.hexdigest()
 
 

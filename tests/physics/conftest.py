@@ -25,6 +25,7 @@ class Compression(NamedTuple):
     contacts: pd.DataFrame
     walls: pd.DataFrame
     steps: pd.DataFrame
+    compressed: pd.DataFrame
     variables: dict
     folder: Path
 

@@ -10,6 +10,7 @@ import json
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,8 @@ ROOMS = sorted(file.parent.name for file in PACKAGE.glob("*/__init__.py"))
 # Rooms that no drawing, no workflow and no check of a configuration may slow down.
 PURE = ("branches", "crushing", "energy", "forces", "gradings", "loading", "packings", "samples")
 PURE += ("statistics",)
+# How a job reports, and what it notes of itself.
+REPORTS = {"jobs", "records"}
 # Besides the pure ones, of what the jobs of the seeds load: many are started.
 LEAN = ("config.build", "files.seeds", "lammps.compression")
 
@@ -74,7 +77,7 @@ def test_direct_imports_are_the_modules_of_the_package(tmp_path, source, modules
 
 
 def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_path):
-    source = "from branchcrush.packings import placement\nfrom branchcrush.jobs import job\n"
+    source = "from branchcrush.packings import placement\nfrom branchcrush import jobs, records\n"
     (tmp_path / "script.py").write_text(source)
     files = source_files(tmp_path / "script.py")
     assert [str(Path(file).relative_to(PACKAGE)) for file in files] == [
@@ -88,9 +91,18 @@ def test_files_are_those_of_all_imports_in_turn_but_the_way_a_job_reports(tmp_pa
 
 def test_a_digest_is_that_of_the_names_and_contents_of_the_files(tmp_path):
     (tmp_path / "script.py").write_text("from branchcrush.errors import FitError\n")
-    content = hashlib.sha256(file_of("errors").read_bytes()).hexdigest()
-    expected = hashlib.sha256(f"errors.py {content}\n".encode()).hexdigest()
-    assert source_digest(tmp_path / "script.py") == expected
+    (tmp_path / "page.jinja").write_text("page")
+    contents = {
+        "script.py": tmp_path / "script.py",
+        "errors.py": file_of("errors"),
+        "page.jinja": tmp_path / "page.jinja",
+    }
+    lines = [
+        f"{name} {hashlib.sha256(file.read_bytes()).hexdigest()}\n"
+        for name, file in contents.items()
+    ]
+    expected = hashlib.sha256("".join(lines).encode()).hexdigest()
+    assert source_digest(tmp_path / "script.py", [tmp_path / "page.jinja"]) == expected
 
 
 # --- what Python loads ---------------------------------------------------------------------------
@@ -119,7 +131,7 @@ def loaded():
     """What Python loads: of the pure modules, of the lean ones, and of each script in turn."""
     pure = [module for module in MODULES if module.startswith(tuple(f"{room}." for room in PURE))]
     # What is loaded from outside stays loaded: the scripts, which draw, come last.
-    scripts = [sorted(imported_modules(script) - {"jobs"}) for script in SCRIPTS]
+    scripts = [sorted(imported_modules(script) - REPORTS) for script in SCRIPTS]
     groups = [pure, pure + list(LEAN), *scripts]
     slow = ["lammps", "mpi4py", "snakemake", "matplotlib", "pydantic", "yaml"]
     arguments = [sys.executable, "-c", PROGRAM, json.dumps([slow, groups])]
@@ -134,20 +146,25 @@ def test_neither_the_science_nor_the_jobs_of_seeds_load_what_is_slow(loaded):
 
 def test_a_script_watches_all_that_python_loads_for_it_but_the_way_a_job_reports(loaded):
     for script, (modules, _) in zip(SCRIPTS, loaded[2:], strict=True):
-        assert watched(script) == set(modules), script
+        assert watched(script) == set(modules) - REPORTS - {"runs"}, script
 
 
 # --- the house -----------------------------------------------------------------------------------
 
 
 def test_every_script_is_a_job():
-    assert [script for script in SCRIPTS if "jobs" not in imported_modules(script)] == []
+    assert [script for script in SCRIPTS if not REPORTS & imported_modules(script)] == []
 
 
 def test_every_module_is_used_by_the_workflow_or_a_command():
     makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
     used = set(re.findall(r"-m branchcrush\.([a-z_.]+)", makefile))
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    for place in project["scripts"].values():
+        used.add(place.partition(":")[0].removeprefix("branchcrush."))
     used = used.union(*map(imported_modules, SCRIPTS))
+    plugin = REPOSITORY.glob("src/snakemake_logger_plugin_branchcrush/*.py")
+    used = used.union(*map(imported_modules, plugin))
     for source in [REPOSITORY / "Snakefile", *REPOSITORY.glob("workflow/**/*.smk")]:
         used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", source.read_text("utf-8")))
     assert closure(used) == set(MODULES)

@@ -46,7 +46,8 @@ class Study:
             "PYTHONPATH": str(self.source),
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
-        command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
+        command = [sys.executable, "-m", "snakemake"]
+        command += [] if cores is None else ["--cores", str(cores)]
         return subprocess.run(
             [*wrapped_in, *command, "--snakefile", str(self.snakefile), *arguments],
             cwd=self.folder,
@@ -81,7 +82,7 @@ class Project(Study):
     """A copy of the project, whose files a test may edit."""
 
     def __init__(self, folder):
-        for name in ("Snakefile", "workflow", "lammps_inputs", "src"):
+        for name in ("Snakefile", "workflow", "profiles", "lammps_inputs", "src"):
             source = ROOT / name
             copy = shutil.copytree if source.is_dir() else shutil.copy
             copy(source, folder / name)
@@ -94,7 +95,7 @@ class Project(Study):
         shown = self.snakemake("--dry-run", "--quiet", "host")
         assert shown.returncode == 0, shown.stdout + shown.stderr
         return {
-            line.split()[-1].rstrip(":")
+            line.split()[1].rstrip(":")
             for line in (shown.stdout + shown.stderr).splitlines()
             if line.startswith(("rule ", "localrule "))
         } - {"all"}

@@ -5,6 +5,7 @@ import re
 import pytest
 from matplotlib import image
 
+from branchcrush.files.dictionary import result_files
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.study.summary import summary
 
@@ -68,7 +69,7 @@ def test_a_stress_path_goes_to_every_stress_and_back(no_data):
 def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
     table = read_table(no_data / "comparison.csv").set_index("sample")
     assert table["reason"].to_dict() == {"alike": ONE_LENGTH, "loose": NO_LOAD}
-    assert table["verdict"].to_dict() == {"alike": "flagged", "loose": "not certified"}
+    assert table["verdict"].to_dict() == {"alike": "certified with notes", "loose": "not certified"}
     assert table[["exponent", "theta"]].isna().all(axis=None)
     assert table["seeds_certified"].to_dict() == {"alike": 1, "loose": 0}
     for name, text in (("alike", ONE_LENGTH), ("loose", NO_LOAD)):
@@ -79,7 +80,7 @@ def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
     assert read_table(no_data / "alike/branch_lengths.csv")["branches"].sum() > 40
     assert read_json(no_data / "loose/branch_lengths.json")["reason"] == NO_LOAD
     assert summary(no_data).splitlines()[:2] == [
-        f"alike: flagged, no exponent: {ONE_LENGTH}",
+        f"alike: certified with notes, no exponent: {ONE_LENGTH}",
         f"loose: not certified, no exponent: {NO_LOAD}",
     ]
 
@@ -109,3 +110,16 @@ def test_findings_keep_what_grains_of_one_size_do_tell(no_data):
     page = (no_data / "findings.html").read_text(encoding="utf-8")
     assert f"Not all is known of loose: {NO_LOAD}." in page
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
+
+
+def test_the_dictionary_knows_what_is_said_without_data_and_of_the_way_back(no_data):
+    for path in (*no_data.rglob("*.csv"), *no_data.rglob("*.json")):
+        name = path.relative_to(no_data).as_posix()
+        file = next(file for file in result_files() if file.matches(name))
+        known = {column.name.partition(".")[0] for column in file.columns()}
+        there = read_json(path) if path.suffix == ".json" else read_table(path)
+        if name != "datapackage.json":
+            assert set(there) - {"provenance"} <= {one.removesuffix("[]") for one in known}, name
+    way_back = read_json(no_data / "alike/certificate.json")["unloading"]
+    certificate = next(file for file in result_files() if file.matches("alike/certificate.json"))
+    assert {f"unloading.{key}" for key in way_back} <= {c.name for c in certificate.columns()}

@@ -117,17 +117,3 @@ def test_a_number_that_yaml_takes_for_text_is_a_number(study):
     study.configure(study.tiny.replace("min: 5.0e-5", "min: 5e-5").replace("60", "6e1"))
     run = study.snakemake("--dry-run", "--quiet")
     assert run.returncode == 0, run.stdout + run.stderr
-
-
-def test_a_packing_too_dense_to_place_says_the_fraction_reached(project):
-    project.configure(
-        project.tiny.replace("min: 5.0e-5", "min: 9.9e-4")
-        .replace("edge_reduction: 0.4", "edge_reduction: 0.2")
-        .replace("boundary: walls", "boundary: walls\n    initial_solid_fraction: 0.4")
-    )
-    run = project.snakemake()
-    text = run.stdout + run.stderr
-    assert run.returncode != 0
-    assert "no free place for grain" in text
-    assert "at a solid fraction of 0." in text
-    assert "Traceback" not in text

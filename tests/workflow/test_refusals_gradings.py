@@ -3,7 +3,7 @@
 import pytest
 
 FORMS = "'uniform', 'loguniform', 'normal', 'lognormal', 'weibull', 'fractal', 'fuller', 'single', "
-FORMS += "'sieve', 'density', 'radii' or 'mixture'"
+FORMS += "'sieve', 'density', 'histogram', 'radii' or 'mixture'"
 PLACE = "samples.tiny.grading"
 
 
@@ -34,14 +34,14 @@ def masses(rest):
             "{form: uniform, basis: number, min: 1, max: 2}",
             [
                 ".size: missing; must be 'radius' or 'diameter'",
-                ".unit: missing; must be 'm', 'mm' or 'um'",
+                ".unit: missing; must be 'm', 'cm', 'mm', 'um' or 'inch'",
             ],
         ),
         (
-            "{form: uniform, basis: volume, size: width, unit: cm, min: 1, max: 2}",
+            "{form: uniform, basis: volume, size: width, unit: km, min: 1, max: 2}",
             [
                 ".size = 'width': must be 'radius' or 'diameter'",
-                ".unit = 'cm': must be 'm', 'mm' or 'um'",
+                ".unit = 'km': must be 'm', 'cm', 'mm', 'um' or 'inch'",
                 ".basis = 'volume': must be 'number' or 'mass'",
             ],
         ),
@@ -147,20 +147,16 @@ def test_a_grading_of_wrong_keys(study, grading, expected):
         ("1,0\n2,60\n4,40\n8,100\n", ["line 3: percent finer = 40 at opening 4 is less than 60"]),
         ("1,0\n2,60\n8,110\n", ["line 3: percent finer = 110; must lie between 0 and 100"]),
         ("1,0\n2,0.6\n8,1\n", ["line 3: percent finer ends at 1, so these are fractions"]),
-        ("1,5\n2,60\n8,100\n", ["line 1: percent finer = 5 at the smallest opening 1; must be 0"]),
-        ("1,0\n2,60\n8,90\n", ["line 3: percent finer = 90 at the largest opening 8; must be 100"]),
-        ("0,0\n2,60\n8,100\n", ["line 1: opening = 0; must be above 0: correct or remove it"]),
+        ("1,5\n2,60\n8,100\n", ["line 1: percent finer = 5 at the smallest opening 1; how small"]),
+        ("1,0\n2,60\n8,90\n", ["line 3: percent finer = 90 at the largest opening 8; how large"]),
+        ("0,0\n2,60\n8,100\n", ["line 2: percent finer = 60 at the smallest opening 2; how small"]),
         ("1,0\n2,60\n2,70\n8,100\n", ["line 3: opening 2 has percent finer = 70 here and 60 on"]),
         ("1,0\n2,nan\n8,100\n", ["line 2: percent finer = 'nan' is no finite number"]),
         ("1,0\n2,60,7\n8,1o0\n", ["line 2: 3 columns, 2 | 60 | 7; must", "line 3: percent finer"]),
-        (
-            "0,5 0\n8,1 100\n",
-            ["line 1: percent finer = '5 0' is", "line 2: percent finer = '1 "],
-        ),
         ("8,100\n", ["line 1: one row of numbers; must be two or more"]),
         ("opening,percent\n", ["line 1: no row of numbers; must be two or more"]),
         ("", ["is empty; write one row of numbers on each line"]),
-        (b"PK\x03\x04\x00\x00", ["is no text in UTF-8; save the table as CSV in UTF-8"]),
+        (b"PK\x03\x04\x00\x00", ["is no text in UTF-8 and no workbook (.xlsx); save"]),
     ],
 )
 def test_a_sieve_table_that_is_wrong_is_answered_with_its_lines(study, content, expected):
@@ -207,6 +203,7 @@ def test_a_grading_that_its_grains_cannot_stand_for(study):
 def test_a_table_in_a_dialect_of_its_own_is_taken(study, content):
     (study.folder / "sand.csv").write_bytes(content.encode())
     study.configure(with_grading(study.tiny, masses("form: sieve, file: sand.csv")))
-    run = study.snakemake("--dry-run")
+    # Snakemake's own screen names every file.
+    run = study.snakemake("--dry-run", "--workflow-profile", "none")
     assert run.returncode == 0, run.stdout + run.stderr
     assert "sand.csv" in run.stdout + run.stderr

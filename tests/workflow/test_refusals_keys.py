@@ -46,8 +46,8 @@ def with_key(text, path, typed):
         (
             "sampling",
             "quantiles",
-            " = 'quantiles': must be 'random', 'number_quantiles' or 'mass_quantiles'; did you "
-            "mean 'mass_quantiles'?",
+            " = 'quantiles': must be 'random', 'number_quantiles', 'mass_quantiles' or "
+            "'listed'; did you mean 'mass_quantiles'?",
         ),
         ("allow_unrepresentative", "perhaps", " = 'perhaps': must be true or false"),
         # Seeds.

@@ -12,13 +12,23 @@ rule branch_lengths:
         jamming="results/{sample}/jamming.csv",
         data=data_files,
     output:
-        table="results/{sample}/branch_lengths.csv",
+        table=table(
+            "branch_lengths", "counts and densities of branch lengths, measured and predicted"
+        ),
         statistics="results/{sample}/branch_lengths.json",
-        predictions="results/{sample}/length_predictions.csv",
-        numbers="results/{sample}/contact_numbers.csv",
-        pairs="results/{sample}/contact_pairs.csv",
-        coordination="results/{sample}/coordination.csv",
+        predictions=table(
+            "length_predictions",
+            "how far each prediction of branch lengths is off, in every state",
+        ),
+        numbers=table(
+            "contact_numbers", "contacts of a grain against its radius, measured and predicted"
+        ),
+        pairs=table("contact_pairs", "how often radii meet"),
+        coordination=table(
+            "coordination", "coordination numbers and rattlers of every packing in every state"
+        ),
         contact_numbers="results/{sample}/contact_numbers.json",
+        record="results/{sample}/made/branch_lengths.json",
     log:
         "logs/{sample}/branch_lengths.log",
     conda:

@@ -7,8 +7,9 @@ rule certificate:
         paths=of_all_seeds("path.csv"),
         steps=of_all_seeds("steps.csv"),
     output:
-        states="results/{sample}/certificate.csv",
-        jamming="results/{sample}/jamming.csv",
+        states=table("certificate", "every saved state with its measures and verdict"),
+        jamming=table("jamming", "jamming solid fraction of every packing, with its uncertainty"),
+        record="results/{sample}/made/certificate.json",
     log:
         "logs/{sample}/certificate.log",
     # All that is fitted waits for it.
@@ -25,24 +26,20 @@ rule certificate:
 rule verdict:
     input:
         states="results/{sample}/certificate.csv",
-        refined_states=lambda wildcards: [
-            f"results/{name}/certificate.csv"
-            for name in [wildcards.sample + REFINED]
-            if name in REFINED_SAMPLES
-        ],
+        refined_states=of_refined_sample("certificate.csv"),
+        refined_jamming=of_refined_sample("jamming.csv"),
         jamming="results/{sample}/jamming.csv",
         grading="results/{sample}/grading.json",
         # Whether its interval tells n; fits take the states that are certified, not the verdict.
         fit="results/{sample}/energy_split.json",
-        all_paths=of_all_seeds("path.csv"),
-        paths=of_refined_seeds("path.csv", refined=False),
-        contacts=of_refined_seeds("contacts.parquet", refined=False),
-        refined_paths=of_refined_seeds("path.csv", refined=True),
-        refined_contacts=of_refined_seeds("contacts.parquet", refined=True),
+        paths=of_all_seeds("path.csv"),
+        refined_paths=of_refined_seeds("path.csv"),
+        refined_contacts=of_refined_seeds("contacts.parquet"),
         data=data_files,
     output:
-        convergence="results/{sample}/convergence.csv",
+        convergence=table("convergence", "the first seeds again with twice the strain steps"),
         certificate="results/{sample}/certificate.json",
+        record="results/{sample}/made/verdict.json",
     log:
         "logs/{sample}/verdict.log",
     # Figures wait for it, as for the model, and both for the fit.

@@ -1,9 +1,14 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
+from pathlib import Path
+
 from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
+from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
 
+# Of this project: a workflow that uses it as a module has another basedir.
+ROOT = Path(workflow.current_basedir).parents[1]
 SAMPLES = {name: sample.settings() for name, sample in SETTINGS.samples.items()}
 # The first seeds again with twice the strain steps, for the certificate's convergence.
 REFINED_SAMPLES = {
@@ -20,18 +25,23 @@ wildcard_constraints:
     seed=r"\d+",
 
 
-def sample_of(wildcards):
+def settings_of(wildcards):
     return {**SAMPLES, **REFINED_SAMPLES}[wildcards.sample]
 
 
 def section(*keys):
     """Return a params function for some keys of the sample, as plain values."""
-    return lambda wildcards: {key: sample_of(wildcards)[key] for key in keys}
+    return lambda wildcards: {key: settings_of(wildcards)[key] for key in keys}
 
 
 def data_files(wildcards):
     """Return the files that the sample's grading is read from."""
-    return grading_data_files(sample_of(wildcards)["grading"])
+    return data_of(settings_of(wildcards))
+
+
+def data_of(settings):
+    """Return the files that a grading is read from; a module's prefix does not move them."""
+    return [local(file) for file in grading_data_files(settings["grading"])]
 
 
 def of_seeds(file, of, seeds):
@@ -40,26 +50,81 @@ def of_seeds(file, of, seeds):
 
 def of_all_seeds(file):
     """Return an input function for a file of every seed of the sample."""
-    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"])
+    return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"])
 
 
 def of_first_seed(file):
     """Return an input function for a file of the one seed whose packing is drawn."""
-    return lambda wildcards: of_seeds(file, wildcards.sample, sample_of(wildcards)["seeds"][:1])
+    return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"][:1])
 
 
-def of_refined_seeds(file, refined):
-    """Return an input function for a file of the seeds run twice, in one or the other run."""
+def of_refined_sample(file):
+    """Return an input function for a file of the sample with twice the steps, if there is one."""
 
     def files(wildcards):
         name = wildcards.sample + REFINED
-        seeds = REFINED_SAMPLES[name]["seeds"] if name in REFINED_SAMPLES else []
-        return of_seeds(file, name if refined else wildcards.sample, seeds)
+        return [f"results/{name}/{file}"] if name in REFINED_SAMPLES else []
 
     return files
 
 
-def code(script):
-    """Return what stands for the modules a script runs: an edit of one reruns the jobs."""
-    # One text, where each module as an input would be looked at and recorded with every output.
-    return source_digest(workflow.source_path(f"../scripts/{script}.py"))
+def of_refined_seeds(file):
+    """Return an input function for a file of every seed that is run again with twice the steps."""
+
+    def files(wildcards):
+        name = wildcards.sample + REFINED
+        return (
+            of_seeds(file, name, REFINED_SAMPLES[name]["seeds"]) if name in REFINED_SAMPLES else []
+        )
+
+    return files
+
+
+def code(script, *others):
+    """Return what stands for a script, the modules it runs and other files that it reads."""
+    # One text, where each file as an input would be looked at and recorded with every output.
+    return source_digest(workflow.source_path(f"../scripts/{script}.py"), others)
+
+
+def figure(name):
+    """Return a figure of a sample, as an output that `snakemake --report` holds."""
+    return report(
+        f"results/figures/{{sample}}/{name}.png",
+        caption=f"../report/captions/{name}.rst",
+        category="Sample {sample}",
+        subcategory="Figures",
+        labels={"figure": name.replace("_", " ")},
+    )
+
+
+def table(name, holds):
+    """Return a table of a sample, in the same way, with words for what it holds."""
+    return report(
+        f"results/{{sample}}/{name}.csv",
+        caption="../report/captions/table.rst",
+        category="Sample {sample}",
+        subcategory="Tables",
+        labels={"table": name.replace("_", " "), "holds": holds},
+    )
+
+
+def study_figure(name):
+    """Return a figure of all samples, in the same way."""
+    return report(
+        f"results/figures/findings/{name}.png",
+        caption=f"../report/captions/findings_{name}.rst",
+        category="All samples",
+        subcategory="Figures",
+        labels={"figure": name},
+    )
+
+
+def study_table(name, holds):
+    """Return a table of all samples, in the same way."""
+    return report(
+        f"results/{name}.csv",
+        caption="../report/captions/table.rst",
+        category="All samples",
+        subcategory="Tables",
+        labels={"table": name, "holds": holds},
+    )

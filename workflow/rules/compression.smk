@@ -1,32 +1,14 @@
 # Compression: grading, grains, seed and loading -> a loose packing, and states, contacts and dumps
-# along its path. One job a seed: to place the grains takes less than to start one.
+# along its path. Dumps are no outputs: who deletes one, or keeps none, misses no result. One job a
+# seed: to place the grains takes less than to start one.
+
+
+LAMMPS_INPUTS = ROOT / "lammps_inputs"
 
 
 rule compression:
     input:
         data=data_files,
-        inputs=[
-            f"{workflow.basedir}/lammps_inputs/{file}"
-            for file in (
-                "in.compress",
-                "mod.cell",
-                "mod.contact",
-                "mod.edge",
-                "mod.hertz",
-                "mod.linear",
-                "mod.mass",
-                "mod.output",
-                "mod.periodic",
-                "mod.relax",
-                "mod.state",
-                "mod.step",
-                "mod.strain",
-                "mod.stress",
-                "mod.target",
-                "mod.undo",
-                "mod.walls",
-            )
-        ],
     output:
         packing="results/{sample}/seed_{seed}/packing.npz",
         data="results/{sample}/seed_{seed}/packing.data",
@@ -34,8 +16,8 @@ rule compression:
         steps="results/{sample}/seed_{seed}/steps.csv",
         contacts="results/{sample}/seed_{seed}/contacts.parquet",
         walls="results/{sample}/seed_{seed}/wall_contacts.parquet",
-        particles="results/{sample}/seed_{seed}/particles.dump.gz",
-        pairs="results/{sample}/seed_{seed}/pairs.dump.gz",
+        compressed="results/{sample}/seed_{seed}/compressed.parquet",
+        record="results/{sample}/seed_{seed}/made.json",
     log:
         "logs/{sample}/seed_{seed}/compression.log",
     # Twice the strain steps take twice as long: begun first, they keep no core waiting at the end.
@@ -44,9 +26,16 @@ rule compression:
         "../envs/branchcrush.yaml"
     # MPI processes that share one packing; no more than there are cores. Not among the params: what
     # is certified does not depend on them.
-    threads: lambda wildcards: sample_of(wildcards)["ranks"]
+    threads: lambda wildcards: settings_of(wildcards)["ranks"]
     params:
-        code=code("compression"),
+        # A script includes others by names that it makes up: all that there are.
+        code=code(
+            "compression",
+            *sorted(LAMMPS_INPUTS.glob("in.*")),
+            *sorted(LAMMPS_INPUTS.glob("mod.*")),
+        ),
+        inputs=str(LAMMPS_INPUTS),
+        keep_dumps=SETTINGS.keep_dumps,
         sample=section(
             "grading",
             "sampling",

@@ -9,9 +9,10 @@ rule energy_split:
         jamming="results/{sample}/jamming.csv",
         data=data_files,
     output:
-        table="results/{sample}/energy_split.csv",
+        table=table("energy_split", "bins of the energy-split function"),
         fit="results/{sample}/energy_split.json",
-        path="results/{sample}/energy_split_path.csv",
+        path=table("energy_split_path", "the exponent in every certified state"),
+        record="results/{sample}/made/energy_split.json",
     log:
         "logs/{sample}/energy_split.log",
     # The model and its figures, the longest chain, wait for it.

@@ -6,8 +6,9 @@ rule grading:
         packings=of_all_seeds("packing.npz"),
         data=data_files,
     output:
-        table="results/{sample}/grading.csv",
+        table=table("grading", "target, realised and ultimate grading, by number and by mass"),
         summary="results/{sample}/grading.json",
+        record="results/{sample}/made/grading.json",
     log:
         "logs/{sample}/grading.log",
     conda:

@@ -3,8 +3,7 @@
 
 rule preview:
     input:
-        inputs=rules.compression.input.inputs,
-        data=[file for s in SAMPLES.values() for file in grading_data_files(s["grading"])],
+        data=[file for settings in SAMPLES.values() for file in data_of(settings)],
     log:
         "logs/preview.log",
     localrule: True
@@ -12,13 +11,15 @@ rule preview:
         "../envs/branchcrush.yaml"
     params:
         code=code("preview"),
+        inputs=str(LAMMPS_INPUTS),
         # No output of the workflow, nor a benchmark, which is one: a preview is made anew each
         # time it is asked for.
         text="results/preview.txt",
         figures=[f"results/figures/{sample}/preview.png" for sample in SAMPLES],
         samples=SAMPLES,
         ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
-        cores=workflow.cores or 1,
+        # `workflow.cores` refuses where none are given, as with --unlock.
+        cores=workflow.resource_settings.cores or 1,
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/preview.py"

@@ -26,6 +26,9 @@ NETWORK_TABLES = [
     "stress_sharing",
 ]
 FIGURES = PACKING_FIGURES + FIT_FIGURES
+REPORT, FINDINGS_PAGE = (
+    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "findings")
+)
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
 
@@ -42,9 +45,10 @@ rule packing_figures:
         data=data_files,
         path=of_first_seed("path.csv"),
         packing=of_first_seed("packing.npz"),
-        particles=of_first_seed("particles.dump.gz"),
+        compressed=of_first_seed("compressed.parquet"),
     output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in PACKING_FIGURES},
+        **{name: figure(name) for name in PACKING_FIGURES},
+        record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
     conda:
@@ -70,7 +74,8 @@ rule fit_figures:
         paths=of_all_seeds("path.csv"),
         data=data_files,
     output:
-        **{name: f"results/figures/{{sample}}/{name}.png" for name in FIT_FIGURES},
+        **{name: figure(name) for name in FIT_FIGURES},
+        record="results/{sample}/made/fit_figures.json",
     log:
         "logs/{sample}/fit_figures.log",
     conda:
@@ -89,7 +94,12 @@ rule comparison:
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
-        "results/comparison.csv",
+        table=study_table(
+            "comparison", "a row for each sample: verdict, exponent with its interval, model"
+        ),
+        # No job of its own, which would take a second to start and a moment to write it.
+        package="results/datapackage.json",
+        record="results/made/comparison.json",
     log:
         "logs/comparison.log",
     conda:
@@ -97,6 +107,8 @@ rule comparison:
     params:
         code=code("comparison"),
         samples=SAMPLES,
+        run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
+        dictionary=dictionary_digest(),
     script:
         "../scripts/comparison.py"
 
@@ -107,7 +119,6 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
-        template=f"{workflow.basedir}/workflow/report/report.html.jinja",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
@@ -115,12 +126,14 @@ rule report:
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
     output:
         "results/report.html",
+        record="results/made/report.json",
     log:
         "logs/report.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report"),
+        code=code("report", REPORT),
+        template=REPORT,
         samples=SAMPLES,
         figures=FIGURES,
     script:
@@ -135,9 +148,12 @@ rule findings:
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
     output:
-        rows="results/findings.csv",
-        exponents="results/exponents.csv",
-        states="results/coordination.csv",
+        rows=study_table(
+            "findings", "a row for each sample: exponents, predictors, shielding, forces"
+        ),
+        exponents=study_table("exponents", "the exponent in every state of every sample"),
+        states=study_table("coordination", "coordination numbers of every packing of every sample"),
+        record="results/made/findings.json",
     log:
         "logs/findings.log",
     conda:
@@ -152,7 +168,6 @@ rule findings:
 
 rule findings_page:
     input:
-        template=f"{workflow.basedir}/workflow/report/findings.html.jinja",
         rows="results/findings.csv",
         states="results/coordination.csv",
         paths=expand("results/{sample}/energy_split_path.csv", sample=SAMPLES),
@@ -161,14 +176,16 @@ rule findings_page:
         stress=expand("results/{sample}/stress_sharing.csv", sample=SAMPLES),
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
     output:
-        **{name: f"results/figures/findings/{name}.png" for name in FINDINGS},
+        **{name: study_figure(name) for name in FINDINGS},
         page="results/findings.html",
+        record="results/made/findings_page.json",
     log:
         "logs/findings_page.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("findings_page"),
+        code=code("findings_page", FINDINGS_PAGE),
+        template=FINDINGS_PAGE,
         samples=SAMPLES,
         figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,

@@ -10,14 +10,22 @@ rule sharing:
         certificate="results/{sample}/certificate.csv",
         data=data_files,
     output:
-        shielding_branches="results/{sample}/shielding_branches.csv",
-        shielding_grains="results/{sample}/shielding_grains.csv",
-        force_distribution="results/{sample}/force_distribution.csv",
-        force_by_length="results/{sample}/force_by_length.csv",
-        fabric="results/{sample}/fabric.csv",
-        stress_by_radius="results/{sample}/stress_by_radius.csv",
-        stress_sharing="results/{sample}/stress_sharing.csv",
+        shielding_branches=table(
+            "shielding_branches", "energy of branches against the ratio of their radii"
+        ),
+        shielding_grains=table(
+            "shielding_grains",
+            "energy of grains against their radius over that of their neighbours",
+        ),
+        force_distribution=table("force_distribution", "distribution of normal forces"),
+        force_by_length=table("force_by_length", "normal force against branch length"),
+        fabric=table("fabric", "fabric tensors, beside chance"),
+        stress_by_radius=table("stress_by_radius", "mean stress of grains against their radius"),
+        stress_sharing=table(
+            "stress_sharing", "cumulative share of the stress against that of the volume"
+        ),
         summary="results/{sample}/sharing.json",
+        record="results/{sample}/made/sharing.json",
     log:
         "logs/{sample}/sharing.log",
     conda:

@@ -8,8 +8,11 @@ rule thermodynamics:
         certificate="results/{sample}/certificate.csv",
         data=data_files,
     output:
-        curves="results/{sample}/thermodynamics.csv",
+        curves=table(
+            "thermodynamics", "curves of the crushing model at fixed and evolving crushing"
+        ),
         summary="results/{sample}/thermodynamics.json",
+        record="results/{sample}/made/thermodynamics.json",
     log:
         "logs/{sample}/thermodynamics.log",
     # The model and its figures, the longest chain, wait for it.

@@ -3,10 +3,10 @@
 from branchcrush.config.build import grading_of
 from branchcrush.files.seeds import read_contacts
 from branchcrush.files.tables import provenance, read_table, write_json, write_table
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.samples.branch_lengths import branch_length_results
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
     tables, results = branch_length_results(
         grading_of(params.sample["grading"]),

@@ -1,11 +1,11 @@
 """Judge every saved state, and find the jamming point of every packing."""
 
 from branchcrush.files.tables import provenance, read_packing, read_table, write_table
-from branchcrush.jobs import job
 from branchcrush.packings.contact_laws import contact_law
+from branchcrush.records import recorded_job
 from branchcrush.samples.certificate import certificate_tables
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     sample, files = snakemake.params.sample, snakemake.input
     states, points = certificate_tables(
         contact_law(**sample["contact"]),

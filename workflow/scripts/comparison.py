@@ -1,16 +1,20 @@
-"""Put the samples beside each other, a row each."""
+"""Put the samples beside each other, a row each, and describe all files of the study."""
 
 from branchcrush.energy.fit import EnergySplitFit
-from branchcrush.files.tables import read_json, study_provenance, write_table
-from branchcrush.jobs import job
+from branchcrush.files.datapackage import data_package
+from branchcrush.files.tables import read_json, study_provenance, write_json, write_table
+from branchcrush.records import recorded_job
 from branchcrush.study.comparison import comparison_row
 
-with job(snakemake.log[0]):
-    files, samples = snakemake.input, snakemake.params.samples
+with recorded_job(snakemake):
+    files, params, samples = snakemake.input, snakemake.params, snakemake.params.samples
     rows = [
         comparison_row(name, EnergySplitFit.read(read_json(fit)), *map(read_json, others))
         for name, fit, *others in zip(
             samples, files.fits, files.summaries, files.certificates, strict=True
         )
     ]
-    write_table(snakemake.output[0], rows, study_provenance(samples))
+    origin = study_provenance(samples)
+    write_table(snakemake.output.table, rows, origin)
+    seeds = {name: sample["seeds"] for name, sample in samples.items()}
+    write_json(snakemake.output.package, data_package(seeds, params.run_again), origin)

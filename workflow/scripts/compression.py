@@ -4,13 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from branchcrush.config.build import sample_of
+from branchcrush.config.sample import sample_of
 from branchcrush.files.tables import provenance, write_packing, write_table
-from branchcrush.jobs import job
 from branchcrush.lammps.compression import compress, placed_packing, sample_variables
 from branchcrush.lammps.files import write_data_file
+from branchcrush.records import recorded_job
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake) as beside:
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     origin = provenance(sample=name, seed=seed, ranks=ranks, config=params.sample)
@@ -18,8 +18,16 @@ with job(snakemake.log[0]):
     packing = placed_packing(sample, np.random.default_rng(seed))
     write_packing(output.packing, *packing, origin)
     write_data_file(output.data, *packing)
-    inputs, folder = Path(snakemake.input.inputs[0]).parent, Path(output.path).parent
-    variables, log = sample_variables(sample, packing.radii), snakemake.log[0]
-    tables = compress(*packing, variables, inputs=inputs, folder=folder, log=log, ranks=ranks)
+    folder = Path(output.path).parent
+    tables = compress(
+        *packing,
+        sample_variables(sample, packing.radii),
+        inputs=params.inputs,
+        folder=folder,
+        log=snakemake.log[0],
+        ranks=ranks,
+        keep_dumps=params.keep_dumps,
+    )
+    beside += map(str, folder.glob("*.dump.gz"))
     for kind, table in tables._asdict().items():
         write_table(output[kind], table, origin)

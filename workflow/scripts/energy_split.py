@@ -2,11 +2,11 @@
 
 from branchcrush.config.build import grading_of
 from branchcrush.files.tables import provenance, read_table, write_json, write_table
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.samples.energy_split import energy_split_results
 from branchcrush.samples.seed_branches import COLUMNS
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
     tables, fit = energy_split_results(
         grading_of(params.sample["grading"]),

@@ -8,12 +8,12 @@ from branchcrush.files.tables import (
     study_provenance,
     write_table,
 )
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.study.findings import finding_rows
 from branchcrush.study.kinds import SampleKind
 from branchcrush.study.results import SampleResults
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
     fits = [EnergySplitFit.read(read_json(path)) for path in files.fits]
     numbers, shared = ([read_json(path) for path in files[k]] for k in ("numbers", "shared"))

@@ -3,13 +3,13 @@
 from pathlib import Path
 
 from branchcrush.files.tables import read_table, write_text
-from branchcrush.jobs import job
 from branchcrush.plotting import study_figures as figures
 from branchcrush.plotting.study import sample_styles
+from branchcrush.records import recorded_job
 from branchcrush.study.kinds import SampleKind
 from branchcrush.study.pages import render_findings
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
     styles = sample_styles({name: SampleKind.of(s) for name, s in params.samples.items()})
     rows, states = read_table(files.rows), read_table(files.states)
@@ -23,6 +23,6 @@ with job(snakemake.log[0]):
     figures.draw_coordination(output.coordination, params.dpi, states, styles)
     figures.draw_shielding(output.shielding, params.dpi, branches, grains, styles)
     figures.draw_forces(output.forces, params.dpi, stress, forces, styles)
-    template = Path(files.template).read_text(encoding="utf-8")
+    template = Path(params.template).read_text(encoding="utf-8")
     drawn = {name: output[name] for name in params.figures}
     write_text(output.page, render_findings(template, rows, drawn))

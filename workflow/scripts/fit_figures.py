@@ -3,11 +3,11 @@
 from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, read_table
-from branchcrush.jobs import job
 from branchcrush.plotting import fit_figures as figures
+from branchcrush.records import recorded_job
 from branchcrush.samples.ensemble import stacked
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
     split, fit = read_table(files.split), EnergySplitFit.read(read_json(files.fit))
     lengths, statistics = read_table(files.lengths), read_json(files.statistics)

@@ -1,28 +1,23 @@
 """Draw the packings of a sample: grading, two states, certificate, and who touches and carries."""
 
-from itertools import islice
-
 from branchcrush.config.build import grading_of
 from branchcrush.files.tables import read_json, read_packing, read_table
-from branchcrush.jobs import job
-from branchcrush.lammps.files import read_dump
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
-from branchcrush.samples.ensemble import end_of_loading
+from branchcrush.records import recorded_job
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
     path, packing, dpi = read_table(files.path[0]), read_packing(files.packing[0]), params.dpi
     # The first seed, before and after.
-    last = int(end_of_loading(path)["state"])
-    frame = next(islice(read_dump(files.particles[0]), last, None))
+    compressed = read_table(files.compressed[0])
     states, jamming = read_table(files.states), read_table(files.jamming)
     numbers, shared = read_json(files.numbers), read_json(files.shared)
     tables = {name: read_table(files[name]) for name in params.tables}
     _, largest = grading_of(params.sample["grading"]).support()
 
     figures.draw_grading(output.fig3_grading, dpi, read_table(files.grading))
-    figures.draw_packing(output.fig4_packing, dpi, packing, frame, path, largest)
+    figures.draw_packing(output.fig4_packing, dpi, packing, compressed, path, largest)
     figures.draw_certificate(output.certificate, dpi, states, jamming, read_json(files.certificate))
     networks.draw_who_touches_whom(output.who_touches_whom, dpi, numbers, tables, largest)
     networks.draw_sharing(output.sharing, dpi, shared, tables, largest)

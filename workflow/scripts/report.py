@@ -4,10 +4,10 @@ from pathlib import Path
 
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, write_text
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.study.pages import SamplePage, render_report
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
     # Files of every kind are in the order of the samples.
     names = ("fits", "summaries", "statistics", "certificates", "gradings")
@@ -25,5 +25,5 @@ with job(snakemake.log[0]):
             params.samples.items(), results, drawn, strict=True
         )
     ]
-    template = Path(files.template).read_text(encoding="utf-8")
+    template = Path(params.template).read_text(encoding="utf-8")
     write_text(snakemake.output[0], render_report(template, pages))

@@ -3,11 +3,11 @@
 from branchcrush.config.build import grading_of
 from branchcrush.files.seeds import read_contacts
 from branchcrush.files.tables import provenance, read_table, write_json, write_table
-from branchcrush.jobs import job
 from branchcrush.packings.contact_laws import contact_law
+from branchcrush.records import recorded_job
 from branchcrush.samples.sharing import sharing_results
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
     tables, summary = sharing_results(
         grading_of(params.sample["grading"]),

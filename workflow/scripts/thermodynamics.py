@@ -3,10 +3,10 @@
 from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import provenance, read_json, read_table, write_json, write_table
-from branchcrush.jobs import job
+from branchcrush.records import recorded_job
 from branchcrush.samples.thermodynamics import crushing_results
 
-with job(snakemake.log[0]):
+with recorded_job(snakemake):
     files, model = snakemake.input, snakemake.params.thermodynamics
     curves, summary = crushing_results(
         EnergySplitFit.read(read_json(files.fit)),

@@ -1,14 +1,20 @@
-"""What a job makes of its plain settings: the grading that a section describes, the sample."""
+"""The grading that a section of the configuration describes, made of its plain values."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
-from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
+from branchcrush.files.declared import Declared
+from branchcrush.files.grading_tables import (
+    read_density_table,
+    read_histogram,
+    read_radii,
+    read_sieve_table,
+)
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.forms import (
     fractal,
@@ -20,10 +26,8 @@ from branchcrush.gradings.forms import (
     weibull,
 )
 from branchcrush.gradings.mixtures import from_radii, mixture, single
-from branchcrush.gradings.tables import from_density, from_percent_finer
-from branchcrush.loading.sample import Sample
-from branchcrush.loading.targets import Loading
-from branchcrush.packings.contact_laws import contact_law
+from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
+from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
 
 
 @dataclass(frozen=True)
@@ -52,16 +56,27 @@ class GradingValues:
         """The smallest and the largest radius [m]."""
         return self.radius("min"), self.radius("max")
 
+    @property
+    def curve(self) -> tuple[float, float]:
+        """Median [m] and geometric standard deviation of a lognormal, scale [m] and shape [-]."""
+        fit = curve_of(self["form"], self.section)
+        return fit.centre * self.to_radius, fit.width
+
     def radius(self, key: str) -> float:
         """Return the size at a key as a radius [m]."""
         return self[key] * self.to_radius
 
+    @property
+    def basis(self) -> str:
+        """What values count: grains of one density have the volume of their mass."""
+        return "mass" if self["basis"] == "volume" else self["basis"]
+
     def table(self, read: Callable) -> tuple[np.ndarray, np.ndarray, list[float | None]]:
         """Return the radii of the file [m], its other column, and where it is cut [m], if it is."""
+        table = read(self["file"], Declared.of(self.section))
         ends = [self.section.get(key) for key in ("min", "max")]
-        size, other = read(self["file"], *ends)
         cut = [None if end is None else end * self.to_radius for end in ends]
-        return size * self.to_radius, other, cut
+        return table.sizes * self.to_radius, table.values, cut
 
 
 def _sieve(values: GradingValues) -> Grading:
@@ -71,7 +86,14 @@ def _sieve(values: GradingValues) -> Grading:
 
 def _density(values: GradingValues) -> Grading:
     radius, density, cut = values.table(read_density_table)
-    return from_density(radius, density, values["basis"], *cut)
+    per = Declared.of(values.section).taken("per")
+    return from_density(radius, density, values.basis, *cut, per=per)
+
+
+def _histogram(values: GradingValues) -> Grading:
+    edges, shares, cut = values.table(read_histogram)
+    scale = Declared.of(values.section).taken("scale")
+    return from_histogram(edges, shares, values.basis, *cut, scale=scale)
 
 
 def _mixture(values: GradingValues) -> Grading:
@@ -88,20 +110,14 @@ FORMS: dict[str, Callable[[GradingValues], Grading]] = {
     "normal": lambda values: normal(
         values.radius("mean"), values.radius("standard_deviation"), *values.ends, values["basis"]
     ),
-    "lognormal": lambda values: lognormal(
-        values.radius("median"),
-        values["geometric_standard_deviation"],
-        *values.ends,
-        values["basis"],
-    ),
-    "weibull": lambda values: weibull(
-        values.radius("scale"), values["shape"], *values.ends, values["basis"]
-    ),
+    "lognormal": lambda values: lognormal(*values.curve, *values.ends, values["basis"]),
+    "weibull": lambda values: weibull(*values.curve, *values.ends, values["basis"]),
     "fractal": lambda values: fractal(*values.ends, values["alpha"]),
     "fuller": lambda values: fuller(*values.ends, values["exponent"]),
     "single": lambda values: single(values.radius("value")),
     "sieve": _sieve,
     "density": _density,
+    "histogram": _histogram,
     "radii": lambda values: from_radii(read_radii(values["file"]) * values.to_radius),
     "mixture": _mixture,
 }
@@ -144,39 +160,60 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
         raise GradingError(f"{file}: {error}") from None
 
 
-def sample_of(settings: Mapping[str, Any]) -> Sample:
-    """Return the sample that plain settings describe.
+def unit_of(section: Mapping[str, Any]) -> tuple[str, float, str]:
+    """Return the unit that a section gives sizes in, what it is in metres, and what sizes are.
 
     Parameters
     ----------
-    settings : mapping
-        Of `config.schema.Sample.settings`, all of it or what a rule is given of it.
+    section : mapping
+        As for `grading_of`.
 
     Returns
     -------
-    Sample
-
-    Raises
-    ------
-    GradingError
-        When a file of the grading is not usable.
+    unit : str
+        Of a mixture, that of its first part.
+    metres : float
+        [m]
+    size : {"diameter", "radius"}
 
     Examples
     --------
-    >>> grading = {"form": "single", "size": "radius", "unit": "mm", "value": 1.0}
-    >>> sample = sample_of({"grading": grading, "sampling": "random", "grains": 10,
-    ...                     "boundary": "periodic", "initial_solid_fraction": 0.2,
-    ...                     "contact": {"law": "linear", "normal_stiffness": 1e6},
-    ...                     "loading": {"target": "solid_fraction", "value": 0.7},
-    ...                     "strain_step": 1e-3})
-    >>> sample.periodic, sample.end, sample.law.name
-    (True, 0.7, 'linear')
+    >>> unit_of({"form": "single", "size": "radius", "unit": "um", "value": 1.0})
+    ('um', 1e-06, 'radius')
     """
-    known = {field.name for field in fields(Sample)} - {"grading", "loading", "seeds"}
-    return Sample(
-        grading=grading_of(settings["grading"]),
-        law=contact_law(**settings["contact"]),
-        loading=Loading(**settings["loading"]),
-        seeds=tuple(settings.get("seeds", ())),
-        **{key: value for key, value in settings.items() if key in known},
-    )
+    while "components" in section:
+        section = section["components"][0]["grading"]
+    return section["unit"], UNITS[section["unit"]], section["size"]
+
+
+def size_fits(section: Mapping[str, Any]) -> dict[str, SizeFit]:
+    """Return the curves of a section that are laid through a few sizes.
+
+    Parameters
+    ----------
+    section : mapping
+        As for `grading_of`.
+
+    Returns
+    -------
+    dict of SizeFit
+        Through diameters [m]; by key of the configuration, of which a mixture has several.
+
+    Examples
+    --------
+    >>> section = {"form": "weibull", "size": "radius", "unit": "mm", "basis": "mass",
+    ...            "d10": 1.0, "d90": 3.0, "min": 0.5, "max": 4.0}
+    >>> [(key, fit.given) for key, fit in size_fits(section).items()]
+    [('grading', (0.002, 0.006))]
+    """
+    parts = {"grading": section} | {
+        f"grading.components.{place}.grading": component["grading"]
+        for place, component in enumerate(section.get("components", []))
+    }
+    fits = {}
+    for key, part in parts.items():
+        given = [name for name in D_VALUES if part.get(name) is not None]
+        if len(given) > 1:
+            diameter = 2.0 * GradingValues(part).to_radius
+            fits[key] = curve_of(part["form"], {name: part[name] * diameter for name in given})
+    return fits

@@ -7,12 +7,14 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from branchcrush.config.build import grading_of
+from branchcrush.config.build import grading_of, unit_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
+from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import REFINED, Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
+from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import representativity
 from branchcrush.loading.targets import Loading, expected_overlap_ratio
 from branchcrush.packings.contact_laws import contact_law
@@ -22,6 +24,7 @@ _DEEPEST_OVERLAP = 0.5
 # What the checks below ask for; a mistake in another key keeps none of them back.
 _NEEDED = (
     "grading",
+    "sampling",
     "grains",
     "allow_unrepresentative",
     "initial_solid_fraction",
@@ -30,7 +33,9 @@ _NEEDED = (
 )
 
 
-def checked_study(raw: Any, folder: str | PathLike[str] = ".") -> Config:
+def checked_study(
+    raw: Any, folder: str | PathLike[str] = ".", *, few_grains: bool = False
+) -> Config:
     """Return the configuration, sound in itself and in what it asks of files and folder.
 
     Parameters
@@ -39,6 +44,8 @@ def checked_study(raw: Any, folder: str | PathLike[str] = ".") -> Config:
         What the YAML file holds.
     folder : path-like
         Where results will go.
+    few_grains : bool
+        Whether grains too few for their grading are let through, as for a preview.
 
     Returns
     -------
@@ -67,7 +74,8 @@ def checked_study(raw: Any, folder: str | PathLike[str] = ".") -> Config:
     samples = samples if isinstance(samples, dict) else {}
     for name, section in samples.items():
         problems += [
-            f"config: samples.{one_line(name)}.{line}" for line in sample_problems(section)
+            f"config: samples.{one_line(name)}.{line}"
+            for line in sample_problems(section, few_grains=few_grains)
         ]
     # A name that is none of a folder was refused as such.
     names = [name for name in samples if isinstance(name, str) and Path(name).name == name]
@@ -77,13 +85,15 @@ def checked_study(raw: Any, folder: str | PathLike[str] = ".") -> Config:
     return config
 
 
-def sample_problems(section: Any) -> list[str]:
+def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     """Return what is wrong with a sample that its keys alone do not tell, a line each.
 
     Parameters
     ----------
     section : object
         Of the YAML file; a part that is not valid in itself is passed over.
+    few_grains : bool
+        As for `checked_study`.
 
     Returns
     -------
@@ -105,22 +115,44 @@ def sample_problems(section: Any) -> list[str]:
         sample = Sample.model_validate({**needed, "seeds": 1})
     except ValidationError:
         return []
-    return _grain_problems(sample, grading) + _stress_problems(sample, grading)
+    settings = sample.settings()
+    if problems := _list_problems(settings):
+        return problems
+    grains = number_of_grains(settings)
+    allowed = few_grains or sample.allow_unrepresentative
+    problems = _grain_problems(settings, grading, grains, allowed)
+    return problems + _stress_problems(sample, grading)
 
 
-def _grain_problems(sample, grading):
+def _list_problems(settings):
+    """Return whether a list of grains has another number than is asked for."""
+    given = settings["grains"]
+    if settings["sampling"] != "listed" or given is None:
+        return []
+    listed = number_of_grains({**settings, "grains": None})
+    if given == listed:
+        return []
+    return [
+        f"grains = {given}: the list {settings['grading']['file']} has {listed}; leave grains "
+        f"out to take these {listed} as they are, or say sampling: random (or number_quantiles, "
+        f"mass_quantiles) to draw {given} of such sizes"
+    ]
+
+
+def _grain_problems(settings, grading, grains, allowed):
     """Return what is wrong with the number of grains, for the sizes there are."""
-    end = Loading(**sample.loading.plain()).end(sample.initial_solid_fraction)
-    standing = representativity(grading, sample.grains, end)
+    end = Loading(**settings["loading"]).end(settings["initial_solid_fraction"])
+    standing = representativity(grading, grains, end)
     problems = []
-    if standing.verdict == "refuse" and not sample.allow_unrepresentative:
+    if standing.verdict == "refuse" and not allowed:
+        part = narrower_words(grading, grains, end, *unit_of(settings["grading"]))
         problems.append(
-            f"grains = {sample.grains}: {standing.message}; or set allow_unrepresentative: true, "
+            f"grains = {grains}: {standing.message}{part}; or set allow_unrepresentative: true, "
             "which the report will repeat"
         )
     if standing.box_edge < standing.expected_largest_diameter:
         problems.append(
-            f"grains = {sample.grains}: the cell would end at an edge of {standing.box_edge:.3g} "
+            f"grains = {grains}: the cell would end at an edge of {standing.box_edge:.3g} "
             f"m, smaller than the largest grain of {standing.expected_largest_diameter:.3g} m: use "
             "more grains or load less"
         )

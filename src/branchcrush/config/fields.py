@@ -1,16 +1,35 @@
 """What the sections of the configuration have in common: numbers that say what they allow."""
 
 import math
+from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
+
+# What Python reads as a number; bounds are not checked in text, so that nothing is refused wrongly.
+_NUMBER_IN_TEXT = r"^\s*[+-]?(\d(_?\d)*\.?(\d(_?\d)*)?|\.\d(_?\d)*)([eE][+-]?\d(_?\d)*)?\s*$"
 
 
 class Section(BaseModel):
     """A section of the configuration: no keys but its own, and none changed once checked."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+@dataclass(frozen=True)
+class Allowed:
+    """What a key may hold, in the words of the error where it is missing.
+
+    A key that holds a number has them already; `description` is for documentation.
+
+    Examples
+    --------
+    >>> class Table(Section):
+    ...     file: Annotated[str, Allowed("must be the name of a file")]
+    """
+
+    allowed: str
 
 
 class Number:
@@ -53,6 +72,24 @@ class Number:
     def allowed(self) -> str:
         """What may be given, in words."""
         return self._in_words(self.unit)
+
+    def json_schema(self) -> dict[str, Any]:
+        """Return the JSON schema of what may be given: a number, or a text that spells one.
+
+        Examples
+        --------
+        >>> Number(above=0, most=5).json_schema()["anyOf"][0]
+        {'type': 'number', 'exclusiveMinimum': 0, 'maximum': 5}
+        """
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.most,
+        }
+        given = {key: bound for key, bound in bounds.items() if bound is not None}
+        kind = {"type": "integer" if self.whole else "number", **given}
+        return {"anyOf": [kind, {"type": "string", "pattern": _NUMBER_IN_TEXT}]}
 
     def _in_words(self, unit):
         """Return what may be given, with the unit."""
@@ -101,6 +138,39 @@ class Number:
             and (self.most is None or number <= self.most)
             and (not self.whole or number == int(number))
         )
+
+
+class NumberOrNone(Number):
+    """Reads a number within bounds, or nothing where that has a meaning of its own.
+
+    Examples
+    --------
+    >>> NumberOrNone(least=2)(None, None) is None
+    True
+    """
+
+    def __call__(self, value: Any, info: ValidationInfo) -> float | None:
+        """Return the number, or None for None: as `Number`.
+
+        Parameters
+        ----------
+        value : object
+        info : pydantic.ValidationInfo
+
+        Returns
+        -------
+        float, int or None
+
+        Raises
+        ------
+        PydanticCustomError
+            From `refusal`.
+        """
+        return None if value is None else super().__call__(value, info)
+
+    def json_schema(self) -> dict[str, Any]:
+        """Return the JSON schema of a number, a text that spells one, or nothing."""
+        return {"anyOf": [*super().json_schema()["anyOf"], {"type": "null"}]}
 
 
 def number_of(value: Any) -> float | None:
@@ -200,7 +270,8 @@ def number(kind: type[float] = float, **bounds: Any) -> Any:
     >>> Cell(grains="1e3").grains
     1000
     """
-    return Annotated[kind, BeforeValidator(Number(whole=kind is int, **bounds))]
+    reader = Number(whole=kind is int, **bounds)
+    return Annotated[kind, BeforeValidator(reader), WithJsonSchema(reader.json_schema())]
 
 
 _SHARE = " (a share: 0.4 is 40 %)"

@@ -1,13 +1,35 @@
-"""The configuration file as such: whether it is there, is text, is YAML, has no key twice."""
+"""The configuration file as such: whether it is there, is text, is YAML, has no key twice.
 
+A configuration goes from hand to hand, and is data: what Snakemake or YAML would run in it is
+refused before either reads it.
+"""
+
+import re
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import yaml
 
+from branchcrush.errors import ConfigError
+
+# With `__use_yte__`, Snakemake runs what other such keys hold.
+_CODE_KEY = re.compile(r"__.*__", re.DOTALL)
+# YAML of 1.1 reads 0170 as octal, 1:30 as 90 and 0x10 as 16.
+_DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")
+# References can make a short file as large as one likes.
+_MOST_ENTRIES = 1_000_000
+
 
 class _Loader(yaml.SafeLoader):
-    """Refuses a key given twice, of which YAML would silently keep the last."""
+    """Refuses what YAML would read silently as something else than what is written."""
+
+    def compose_node(self, parent, index):
+        event = self.peek_event()
+        if getattr(event, "tag", None) is not None:
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
+            raise _refused(f"{tag} is a tag, and only plain values are read: remove it", event)
+        return super().compose_node(parent, index)
 
     def construct_mapping(self, node, deep=False):
         seen = {}
@@ -15,20 +37,43 @@ class _Loader(yaml.SafeLoader):
             # Keys of a merge (<<) may be given again: that is what merging is for.
             name = key.value if isinstance(key, yaml.ScalarNode) and key.value != "<<" else None
             if name in seen and name is not None:
-                raise yaml.MarkedYAMLError(
-                    problem=f"{name} is given twice in one section, first in line {seen[name]}",
-                    problem_mark=key.start_mark,
+                raise _refused(
+                    f"{name} is given twice in one section, first in line {seen[name]}", key
                 )
             seen[name] = key.start_mark.line + 1
         return super().construct_mapping(node, deep)
 
+    def construct_yaml_int(self, node):
+        number = super().construct_yaml_int(node)
+        if not _DECIMAL.fullmatch(node.value):
+            raise _refused(f"{node.value} is {number} to YAML: write it as a plain number", node)
+        return number
 
-def config_file_problem(path: str | PathLike[str]) -> str | None:
+    def construct_yaml_float(self, node):
+        number = super().construct_yaml_float(node)
+        if ":" in node.value:
+            raise _refused(f"{node.value} is {number} to YAML: write it as a plain number", node)
+        return number
+
+
+_Loader.add_constructor("tag:yaml.org,2002:int", _Loader.construct_yaml_int)
+_Loader.add_constructor("tag:yaml.org,2002:float", _Loader.construct_yaml_float)
+
+
+def _refused(problem, place):
+    return yaml.MarkedYAMLError(problem=problem, problem_mark=place.start_mark)
+
+
+def config_file_problem(path: str | PathLike[str], *, whole: bool = True) -> str | None:
     """Return what keeps a file from being read as a configuration, or None.
+
+    Nothing in the file is run, neither here nor by Snakemake once it has passed.
 
     Parameters
     ----------
     path : path-like
+    whole : bool
+        Whether it must name samples; a file given with `--configfile` may hold other keys only.
 
     Returns
     -------
@@ -61,20 +106,101 @@ def config_file_problem(path: str | PathLike[str]) -> str | None:
         return f"config: {path} is no YAML: {str(error).splitlines()[0]}"
     except (ValueError, RecursionError) as error:  # a date in month 13; a thousand brackets
         return f"config: {path} is no usable YAML: {error}"
-    if _contains_itself(content):
+    entries = _entries(content)
+    if entries is None:
         return f"config: {path} has a section that contains itself: write it without *"
-    if not isinstance(content, dict) or "samples" not in content:
-        return f"config: {path} must hold keys and values, and among them samples"
+    if entries > _MOST_ENTRIES:
+        return f"config: {path} has more than a million entries by its *: write it without them"
+    if problem := code_problem(content):
+        return f"config: {path}: {problem}"
+    if not isinstance(content, dict) or (whole and "samples" not in content):
+        samples = ", and among them samples" if whole else ""
+        return f"config: {path} must hold keys and values{samples}"
     return None
 
 
-def _contains_itself(content, above=()):
-    """Return whether a section is inside itself, which an alias of YAML can do."""
-    if not isinstance(content, (dict, list)):
-        return False
-    below = content.values() if isinstance(content, dict) else content
-    within = (*above, id(content))
-    return id(content) in above or any(_contains_itself(item, within) for item in below)
+def config_file_content(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return what a configuration file holds.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ConfigError
+        From `config_file_problem`.
+
+    Examples
+    --------
+    >>> config_file_content("nowhere.yaml")
+    Traceback (most recent call last):
+    branchcrush.errors.ConfigError: config: there is no file nowhere.yaml in ...
+    """
+    if problem := config_file_problem(path):
+        raise ConfigError(problem)
+    return yaml.load(Path(path).read_text(encoding="utf-8-sig"), Loader=_Loader)
+
+
+def code_problem(content: Any) -> str | None:
+    """Return which key of a configuration stands for code, or None.
+
+    Parameters
+    ----------
+    content : object
+        What a YAML file or the command line holds; no section contains itself.
+
+    Returns
+    -------
+    str or None
+        One line, with what to do.
+
+    Examples
+    --------
+    >>> code_problem({"samples": [{"__definitions__": ["import os"]}]})
+    '__definitions__ is a key of a template that runs code, and a configuration is data: ...
+    """
+    pending, seen = [content], set()
+    while pending:
+        section = pending.pop()
+        if id(section) in seen or not isinstance(section, (dict, list, tuple, set)):
+            continue
+        seen.add(id(section))
+        for key in section if isinstance(section, dict) else ():
+            if isinstance(key, str) and _CODE_KEY.fullmatch(key.strip()):
+                return (
+                    f"{key} is a key of a template that runs code, and a configuration is data: "
+                    "remove it"
+                )
+        pending += _below(section)
+    return None
+
+
+def _entries(content):
+    """Return how many entries a file has with all that its aliases repeat; None if endless."""
+    counted = {}
+
+    def count(section):
+        if not isinstance(section, (dict, list)):
+            return 1
+        if id(section) not in counted:
+            # Until it is counted, to meet it again is to be inside of it.
+            counted[id(section)] = None
+            below = [count(item) for item in _below(section)]
+            if None in below:
+                return None
+            counted[id(section)] = 1 + sum(below)
+        return counted[id(section)]
+
+    return count(content)
+
+
+def _below(section):
+    return section.values() if isinstance(section, dict) else section
 
 
 def _plain(problem):

@@ -1,42 +1,35 @@
 """The configuration of a grading: one section for each form, each with its size, unit and basis."""
 
-import math
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator
 
-from branchcrush.config.fields import Positive, Section, number, refusal
-from branchcrush.config.units import UNITS
-
-# Of a grain [m]. Outside of them it is the unit that is wrong.
-_SMALLEST, _LARGEST = 1e-9, 1e3
-
-
-def _possible(size, info):
-    unit = info.data.get("unit")
-    if unit and not _SMALLEST <= size * UNITS[unit] <= _LARGEST:
-        raise refusal(
-            f"must be from {_SMALLEST:g} m to {_LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
-            "check it and the unit",
-            unit=unit,
-        )
-    return size
-
-
-Length = number(above=0, unit_of="unit")
-Size = Annotated[Length, AfterValidator(_possible)]
+from branchcrush.config.curves import check_curve, check_share
+from branchcrush.config.fields import Allowed, Positive, Section, number, refusal
+from branchcrush.config.grading_keys import (
+    SIZES_ARE,
+    WEIGHTS_ARE,
+    Basis,
+    BasisOfFile,
+    FileName,
+    Length,
+    OfMass,
+    OfNumber,
+    Size,
+)
+from branchcrush.config.table_keys import DensityKeys, FileKeys, HistogramKeys, SieveKeys
 
 
 class _Sizes(Section):
     # Never guessed: either slip is a factor 2, or 1000, in every size.
-    size: Literal["radius", "diameter"]
-    unit: Literal["m", "mm", "um"]
+    size: Annotated[Literal["radius", "diameter"], SIZES_ARE]
+    unit: Literal["m", "cm", "mm", "um", "inch"] = Field(description="Unit of the sizes.")
 
 
 class _Range(_Sizes):
-    min: Size
-    max: Size
+    min: Size = Field(description="Smallest size of a grain [unit].", examples=[0.063])
+    max: Size = Field(description="Largest size of a grain [unit].", examples=[2.0])
 
     @field_validator("max")
     @classmethod
@@ -48,60 +41,96 @@ class UniformGrading(_Range):
     """The same density at every size."""
 
     form: Literal["uniform"]
-    basis: Literal["number", "mass"]
+    basis: Basis
 
 
 class LoguniformGrading(_Range):
     """Uniform in the logarithm of size."""
 
     form: Literal["loguniform"]
-    basis: Literal["number", "mass"]
+    basis: Basis
 
 
 class NormalGrading(_Range):
     """The normal distribution of size, cut at min and max."""
 
     form: Literal["normal"]
-    basis: Literal["number", "mass"]
-    mean: Length
-    standard_deviation: Length
+    basis: Basis
+    mean: Length = Field(description="Mean of the normal distribution [unit].", examples=[0.5])
+    standard_deviation: Length = Field(
+        description="Standard deviation of the normal distribution [unit].", examples=[0.15]
+    )
 
     @field_validator("standard_deviation")
     @classmethod
     def _within(cls, width: float, info: ValidationInfo) -> float:
         unit = info.data.get("unit", "")
-        _check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
+        check_share("norm", info.data, "mean", lambda mean: {"loc": mean, "scale": width}, unit)
         return width
 
 
-class LognormalGrading(_Range):
+class _SizesOfCurve(_Sizes):
+    min: Size | None = Field(None, description="Smallest size of a grain [unit].")
+    max: Size | None = Field(None, description="Largest size of a grain [unit].")
+    # D10, D50 and D90, as radii where sizes are radii.
+    d10: Length | None = Field(None, description="Size that 10 % are finer than [unit].")
+    d50: Length | None = Field(None, description="Size that 50 % are finer than [unit].")
+    d90: Length | None = Field(None, description="Size that 90 % are finer than [unit].")
+
+    @field_validator("max")
+    @classmethod
+    def _ordered(cls, largest: float | None, info: ValidationInfo) -> float | None:
+        return _above_min(largest, info.data)
+
+    @field_validator("d50", "d90")
+    @classmethod
+    def _growing(cls, size: float | None, info: ValidationInfo) -> float | None:
+        unit = info.data.get("unit")
+        for below in ("d10", "d50"):
+            finer = info.data.get(below)
+            if size is not None and finer is not None and not size > finer:
+                raise refusal(f"must be above {below} {finer:g} {unit or ''}".rstrip(), unit=unit)
+        return size
+
+
+class LognormalGrading(_SizesOfCurve):
     """The normal distribution of the logarithm of size, cut at min and max."""
 
     form: Literal["lognormal"]
-    basis: Literal["number", "mass"]
-    median: Length
-    geometric_standard_deviation: number(above=1, most=1000)
+    basis: Basis
+    median: Length | None = Field(None, description="Median of the distribution [unit].")
+    # The last key is checked when all others are known, also where it is left out.
+    geometric_standard_deviation: number(above=1, most=1000) | None = Field(
+        None,
+        validate_default=True,
+        description="Exponential of the standard deviation of the logarithm of size [-].",
+    )
 
     @field_validator("geometric_standard_deviation")
     @classmethod
-    def _within(cls, width: float, info: ValidationInfo) -> float:
-        s = math.log(width)
-        _check_share("lognorm", info.data, "median", lambda median: {"s": s, "scale": median})
+    def _complete(cls, width: float | None, info: ValidationInfo) -> float | None:
+        check_curve("lognormal", {**info.data, "geometric_standard_deviation": width})
         return width
 
 
-class WeibullGrading(_Range):
+class WeibullGrading(_SizesOfCurve):
     """The Weibull distribution, by mass that of Rosin and Rammler, cut at min and max."""
 
     form: Literal["weibull"]
-    basis: Literal["number", "mass"]
-    scale: Length
-    shape: number(above=0, most=1000)
+    basis: Basis
+    scale: Length | None = Field(
+        None, description="Size that a share of 1/e, 37 %, exceeds [unit]."
+    )
+    shape: number(above=0, most=1000) | None = Field(
+        None,
+        validate_default=True,
+        description="Exponent of size over scale; the larger, the narrower [-].",
+    )
 
     @field_validator("shape")
     @classmethod
-    def _within(cls, shape: float, info: ValidationInfo) -> float:
-        _check_share("weibull_min", info.data, "scale", lambda scale: {"c": shape, "scale": scale})
+    def _complete(cls, shape: float | None, info: ValidationInfo) -> float | None:
+        check_curve("weibull", {**info.data, "shape": shape})
         return shape
 
 
@@ -109,29 +138,31 @@ class FractalGrading(_Range):
     """Number density ~ R^-(1+alpha)."""
 
     form: Literal["fractal"]
-    basis: Literal["number"]
-    alpha: number(above=0, most=6)
+    basis: OfNumber
+    alpha: number(above=0, most=6) = Field(description="Fractal dimension [-].", examples=[2.6])
 
 
 class FullerGrading(_Range):
     """Mass finer ~ D^exponent - D_min^exponent."""
 
     form: Literal["fuller"]
-    basis: Literal["mass"]
-    exponent: number(above=0, most=6)
+    basis: OfMass
+    exponent: number(above=0, most=6) = Field(
+        description="Exponent n of the size in the mass finer [-].", examples=[0.5]
+    )
 
 
 class SingleGrading(_Sizes):
     """One size."""
 
     form: Literal["single"]
-    value: Size
+    value: Size = Field(description="Size of all grains [unit].", examples=[1.0])
 
 
 class _Table(_Sizes):
-    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
-    min: Size | None = None
-    max: Size | None = None
+    file: FileName
+    min: Size | None = Field(None, description="Smallest size, if it is to be cut there [unit].")
+    max: Size | None = Field(None, description="Largest size, if it is to be cut there [unit].")
 
     @field_validator("max")
     @classmethod
@@ -139,27 +170,34 @@ class _Table(_Sizes):
         return _above_min(largest, info.data)
 
 
-class SieveGrading(_Table):
-    """Percent finer by mass at the openings of sieves, from a file."""
+class SieveGrading(FileKeys, SieveKeys, _Table):
+    """What sieves let pass or retain, by mass, from a file."""
 
     form: Literal["sieve"]
-    size: Literal["diameter"]
-    basis: Literal["mass"]
+    size: Annotated[Literal["diameter"], SIZES_ARE]
+    basis: OfMass
 
 
-class DensityGrading(_Table):
+class DensityGrading(FileKeys, DensityKeys, _Table):
     """A density at some sizes, from a file."""
 
     form: Literal["density"]
-    basis: Literal["number", "mass"]
+    basis: BasisOfFile
+
+
+class HistogramGrading(FileKeys, HistogramKeys, _Table):
+    """Percent, counts or masses in channels of size, from a file."""
+
+    form: Literal["histogram"]
+    basis: BasisOfFile
 
 
 class RadiiGrading(_Sizes):
     """The sizes of single grains, from a file."""
 
     form: Literal["radii"]
-    basis: Literal["number"]
-    file: Annotated[str, Field(min_length=1, description="must be the name of a file")]
+    basis: OfNumber
+    file: FileName
 
 
 _Simple = (
@@ -173,6 +211,7 @@ _Simple = (
     | SingleGrading
     | SieveGrading
     | DensityGrading
+    | HistogramGrading
     | RadiiGrading
 )
 SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
@@ -181,8 +220,10 @@ SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
 class Component(Section):
     """One part of a mixture."""
 
-    weight: Positive
-    grading: SimpleGrading
+    weight: Positive = Field(
+        description="Its part, by number or by mass, over the sum of all weights [-].", examples=[1]
+    )
+    grading: SimpleGrading = Field(description="Sizes of its grains: any form but a mixture.")
 
 
 _SEVERAL = "must be a list of 2 or more, each with a weight and a grading"
@@ -192,8 +233,11 @@ class MixtureGrading(Section):
     """Other gradings in parts by number or by mass."""
 
     form: Literal["mixture"]
-    basis: Literal["number", "mass"]
-    components: list[Component] = Field(description=_SEVERAL)
+    basis: Annotated[Literal["number", "mass"], WEIGHTS_ARE]
+    components: Annotated[list[Component], Allowed(_SEVERAL)] = Field(
+        description="Two or more gradings, each with its weight.",
+        json_schema_extra={"minItems": 2},
+    )
 
     @field_validator("components", mode="before")
     @classmethod
@@ -235,23 +279,3 @@ def _above_min(largest, data):
     if largest is not None and smallest is not None and smallest >= largest:
         raise refusal(f"must be above min {smallest:g} {unit or ''}".rstrip(), unit=unit)
     return largest
-
-
-def _check_share(distribution, data, centre, parameters, unit_of_width=""):
-    """Refuse a distribution that hardly reaches between min and max, if these are known."""
-    if not {"min", "max", "unit", centre} <= set(data):
-        return
-    # Every job reads the configuration; few of them need what SciPy takes seconds to import.
-    from scipy import stats
-
-    from branchcrush.gradings.truncation import LEAST_SHARE, share_within
-
-    low, high, at, unit = data["min"], data["max"], data[centre], data["unit"]
-    share = share_within(getattr(stats, distribution)(**parameters(at)), low, high)
-    if not share >= LEAST_SHARE:
-        raise refusal(
-            f"with {centre} {at:g} {unit} only {share:.2g} of the distribution lies between min "
-            f"{low:g} {unit} and max {high:g} {unit}; at least {LEAST_SHARE:g} must: move them or "
-            "check the unit",
-            unit=unit_of_width,
-        )

@@ -169,17 +169,20 @@ def _allowed(kind):
     """Return what a key that is not there must hold."""
     union, *extras = typing.get_args(kind)
     for extra in extras:
-        allowed = getattr(getattr(extra, "func", None), "allowed", None)
-        if allowed or getattr(extra, "description", None):
-            return allowed or extra.description
+        allowed = getattr(getattr(extra, "func", extra), "allowed", None)
+        if allowed:
+            return allowed
     if typing.get_origin(union) is typing.Literal:
         return _one_of(typing.get_args(union))
     return _A_SECTION if _forms(kind) or hasattr(union, "model_fields") else "give it a value"
 
 
 def _words(kind):
-    """Return the words that a key may hold."""
-    return typing.get_args(typing.get_args(kind)[0])
+    """Return the words that a key may hold; of one that may be left out, too."""
+    union = typing.get_args(kind)[0]
+    if typing.get_origin(union) in (typing.Union, types.UnionType):
+        union = next(each for each in typing.get_args(union) if typing.get_args(each))
+    return typing.get_args(union)
 
 
 def _one_of(words, value=None):

@@ -6,39 +6,54 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     AfterValidator,
     BeforeValidator,
+    ConfigDict,
     Field,
     StrictBool,
     ValidationError,
     ValidationInfo,
+    WithJsonSchema,
     field_validator,
+    model_validator,
 )
 
-from branchcrush.config.fields import Fraction, Number, Section, number, refusal
+from branchcrush.config.compression import DENSEST, Contact, LinearContact, Loading
+from branchcrush.config.evaluation import EnergySplit, Figures, Thermodynamics
+from branchcrush.config.fields import (
+    Allowed,
+    Number,
+    NumberOrNone,
+    Section,
+    number,
+    refusal,
+)
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
-from branchcrush.config.stresses import increasing_stresses
+from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
     STATE_TOLERANCES,
-    STRAIN_TARGETS,
     final_solid_fraction,
     strain_step,
 )
 
 # Ends the name of a sample run with twice the strain steps, to judge its convergence.
 REFINED = "-refined"
-# Beyond this the overlaps are as large as the grains, whatever the stiffness.
-_DENSEST = 1.2
-_TARGETS = (*STRAIN_TARGETS, "mean_stress")
 _MOST_SEEDS = 1000
+_GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
+_SEEDS_SCHEMA = WithJsonSchema(
+    number_or_list(_SEEDS, Number(least=0, most=2**32 - 1, whole=True), _MOST_SEEDS)
+)
 _LONGEST_NAME = 100
+_NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
 # Files and folders of results that no sample may be called.
 _TAKEN = (
     "figures",
     "findings",
+    "made",
     "comparison.csv",
     "coordination.csv",
+    "datapackage.json",
     "exponents.csv",
     "findings.csv",
     "findings.html",
@@ -47,97 +62,78 @@ _TAKEN = (
 )
 
 
-class LinearContact(Section):
-    """Frictionless linear normal contact of one stiffness."""
-
-    law: Literal["linear"]
-    normal_stiffness: number(above=0, most=1e15, unit="N/m") = 1.0e6
-
-
-class HertzContact(Section):
-    """Frictionless Hertz contact of grains of one material."""
-
-    law: Literal["hertz"]
-    young_modulus: number(above=0, most=1e15, unit="Pa")
-    poisson_ratio: number(least=0, most=0.5)
-
-
-Contact = Annotated[LinearContact | HertzContact, Field(discriminator="law")]
-
-
-class Loading(Section):
-    """Isotropic compression in strain steps, each relaxed, to one target."""
-
-    edge_reduction: Fraction | None = None
-    volume_reduction: Fraction | None = None
-    solid_fraction: number(above=0, most=_DENSEST) | None = None
-    mean_stress: Annotated[list[float], BeforeValidator(increasing_stresses)] | None = None
-    states: number(int, least=1, most=1000) | None = None
-    approach_solid_fraction: Fraction = 0.55
-    quality: Literal["draft", "standard", "fine"] = "standard"
-    # The last key is checked when all others are known, also where some are wrong.
-    unloading: Annotated[StrictBool, Field(validate_default=True)] = False
-
-    @field_validator("states")
-    @classmethod
-    def _of_strains(cls, states: int | None, info: ValidationInfo) -> int | None:
-        if states is not None and info.data.get("mean_stress") is not None:
-            raise refusal(
-                "belongs to a strain target; with mean_stress a state is saved at each stress: "
-                "list them, or give mean_stress as {from: 1e5, to: 1e7, states: 9}"
-            )
-        return states
-
-    @field_validator("unloading")
-    @classmethod
-    def _one_target(cls, unloading: bool, info: ValidationInfo) -> bool:
-        # A target that is wrong is not in the data, and was given all the same.
-        given = [name for name in _TARGETS if info.data.get(name, "wrong") is not None]
-        if len(given) != 1:
-            which = f"{' and '.join(given)} are given" if given else "none is given"
-            raise refusal(
-                f"must have exactly one target of {', '.join(_TARGETS)}; {which}", of_section=True
-            )
-        return unloading
-
-    @property
-    def target(self) -> tuple[str, float | list[float]]:
-        """Name and value of the target: a share [-], or increasing stresses [Pa]."""
-        given = ((name, getattr(self, name)) for name in _TARGETS)
-        return next((name, value) for name, value in given if value is not None)
-
-    def plain(self) -> dict[str, Any]:
-        """Return the section as `loading.targets.Loading` takes it, plain values by name.
-
-        Examples
-        --------
-        >>> Loading(solid_fraction=0.7).plain()["value"]
-        0.7
-        """
-        name, value = self.target
-        return {
-            "target": name,
-            "value": value,
-            "states": self.states or 15,
-            "approach_solid_fraction": self.approach_solid_fraction,
-            "unloading": self.unloading,
-        }
+# In a schema: a list of grains has a number of them.
+_A_LIST = {"properties": {"grading": {"properties": {"form": {"const": "radii"}}}}}
 
 
 class Sample(Section):
     """A grading, a boundary and a loading, run with several seeds."""
 
-    grading: GradingSection
-    sampling: Literal["random", "number_quantiles", "mass_quantiles"] = "random"
-    grains: number(int, least=2, most=10_000_000)
-    allow_unrepresentative: StrictBool = False
-    boundary: Literal["walls", "periodic"] = "walls"
-    initial_solid_fraction: number(above=0, most=0.4) = 0.16
-    contact: Contact = LinearContact(law="linear")
-    loading: Loading
-    seeds: list[number(int, least=0, most=2**32 - 1)] = Field(description=_SEEDS.allowed)
-    refined_seeds: number(int, least=0, most=_MOST_SEEDS) = 4
-    ranks: number(int, least=1, most=1024, unit="processes") = 1
+    model_config = ConfigDict(json_schema_extra=required_unless("grains", _A_LIST))
+
+    grading: GradingSection = Field(description="Sizes of the grains.")
+    sampling: Literal["random", "number_quantiles", "mass_quantiles", "listed"] = Field(
+        "random",
+        description="How sizes are taken from the grading; a list of grains is taken as it is, "
+        "listed, unless something else is asked for.",
+    )
+    # None for as many as a list has.
+    grains: Annotated[
+        int | None, BeforeValidator(_GRAINS), WithJsonSchema(_GRAINS.json_schema())
+    ] = Field(
+        description="Number of grains, N; of a list as many as it has, if left out.",
+        examples=[1000],
+    )
+    allow_unrepresentative: StrictBool = Field(
+        False, description="Run with too few grains, which the report will repeat."
+    )
+    boundary: Literal["walls", "periodic"] = Field(
+        "walls", description="Six rigid walls, or a cube repeated in all directions."
+    )
+    initial_solid_fraction: number(above=0, most=0.4) = Field(
+        0.16, description="Solid fraction of the loose packing, φ₀ [-]."
+    )
+    contact: Contact = Field(
+        LinearContact(law="linear"), description="Law and stiffness of the contacts."
+    )
+    loading: Loading = Field(description="Where the compression goes, and what is saved.")
+    seeds: Annotated[
+        list[number(int, least=0, most=2**32 - 1)], Allowed(_SEEDS.allowed), _SEEDS_SCHEMA
+    ] = Field(
+        description="A number of packings, from seed 1 up, or a list of different seeds.",
+        examples=[4, [3, 5]],
+    )
+    refined_seeds: number(int, least=0, most=_MOST_SEEDS) = Field(
+        4, description="How many of the seeds, the first, run again with twice the strain steps."
+    )
+    ranks: number(int, least=1, most=1024, unit="processes") = Field(
+        1,
+        description="MPI processes that share each packing, no more than there are cores; pays for "
+        "large packings only. A change alone computes nothing again.",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _as_listed(cls, sample: Any) -> Any:
+        if _is_list_of_grains(sample):
+            return {"sampling": "listed", "grains": None, **sample}
+        return sample
+
+    @field_validator("sampling")
+    @classmethod
+    def _of_a_list(cls, sampling: str, info: ValidationInfo) -> str:
+        grading = info.data.get("grading")
+        if sampling == "listed" and grading is not None and grading.form != "radii":
+            raise refusal("takes the grains of a list as they are: it belongs to form: radii")
+        return sampling
+
+    @field_validator("grains")
+    @classmethod
+    def _known(cls, grains: int | None, info: ValidationInfo) -> int | None:
+        grading = info.data.get("grading")
+        if grains is None and grading is not None and grading.form != "radii":
+            raise refusal(_GRAINS.allowed)
+        return grains
 
     @field_validator("loading")
     @classmethod
@@ -155,11 +151,11 @@ class Sample(Section):
         if name == "mean_stress":
             return loading
         final = final_solid_fraction(start, name, value)
-        if not approach < final <= _DENSEST:
+        if not approach < final <= DENSEST:
             leads = f"leads from initial_solid_fraction {start:g} to {final:.3g}, which "
             raise refusal(
                 f"{'' if name == 'solid_fraction' else leads}must be above "
-                f"loading.approach_solid_fraction {approach:g} and at most {_DENSEST}",
+                f"loading.approach_solid_fraction {approach:g} and at most {DENSEST}",
                 key=name,
                 value=value,
             )
@@ -192,11 +188,13 @@ class Sample(Section):
         Returns
         -------
         dict
-            As `config.build.sample_of` takes it.
+            As `config.sample.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
+        values = self.model_dump(exclude_none=True) | {"grains": self.grains}
         return {
-            **self.model_dump(exclude_none=True),
+            # In the order of the keys, whichever of them were given.
+            **{key: values[key] for key in type(self).model_fields},
             "loading": self.loading.plain(),
             "strain_step": strain_step(self.loading.quality, refinement),
             "state_tolerance": STATE_TOLERANCES[self.loading.quality],
@@ -205,33 +203,17 @@ class Sample(Section):
         }
 
 
-class EnergySplit(Section):
-    """How the energy-split function is binned and its exponent's interval found."""
-
-    bins: number(int, least=3, most=200) = 20
-    confidence: Fraction = 0.95
-    resamples: number(int, least=100, most=1_000_000) = 2000
-
-
-class Thermodynamics(Section):
-    """The crushing model."""
-
-    ultimate_alpha: number(above=0, below=3) = 2.6
-    critical_energy: number(above=0, most=1e15, unit="J/m3") = 2.0e5
-    hardening_exponent: number(above=0, most=100) = 2.0
-
-
-class Figures(Section):
-    """What the figures look like."""
-
-    dpi: number(int, least=50, most=1200, unit="dots per inch") = 300
+def _is_list_of_grains(sample):
+    """Return whether a sample, checked or not, has a list of the sizes of its grains."""
+    grading = sample.get("grading") if isinstance(sample, dict) else None
+    return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
 def _usable_name(name):
     """Return the name of a sample, or refuse one that no folder can have."""
     if not isinstance(name, str):
         raise refusal("a name must be text: put it in quotes")
-    if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", name) or len(name) > _LONGEST_NAME:
+    if not re.fullmatch(_NAME, name):
         raise refusal(
             f"a name must be 1 to {_LONGEST_NAME} letters, digits, '.', '_' and '-', and begin "
             "with a letter or digit: it names a folder"
@@ -246,6 +228,12 @@ def _usable_name(name):
 SampleName = Annotated[str, BeforeValidator(_usable_name)]
 
 
+_NAMES_SCHEMA = {
+    "pattern": f"^{_NAME}$",
+    "not": {"anyOf": [{"pattern": f"{REFINED}$"}, {"enum": list(_TAKEN)}]},
+}
+
+
 def _not_empty(samples):
     if not samples:
         raise refusal("must hold at least one sample")
@@ -255,10 +243,24 @@ def _not_empty(samples):
 class Config(Section):
     """The whole configuration."""
 
-    samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)]
-    energy_split: EnergySplit = EnergySplit()
-    thermodynamics: Thermodynamics = Thermodynamics()
-    figures: Figures = Figures()
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
+
+    samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)] = Field(
+        description="One or more samples by names of your own; results go to results/<name>.",
+        json_schema_extra={"minProperties": 1, "propertyNames": _NAMES_SCHEMA},
+    )
+    energy_split: EnergySplit = Field(
+        EnergySplit(), description="How the energy split is binned, and the intervals found."
+    )
+    thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
+    figures: Figures = Field(Figures(), description="What the figures look like.")
+    keep_dumps: Literal["all", "last", "none"] = Field(
+        "all",
+        description=(
+            "Of which states a packing keeps LAMMPS's dumps of grains and pair forces, for OVITO: "
+            "all, the last one, or none. No result needs them."
+        ),
+    )
 
 
 def checked_config(raw: Any) -> Config:

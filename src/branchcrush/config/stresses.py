@@ -5,10 +5,31 @@ from typing import Any
 
 import numpy as np
 
-from branchcrush.config.fields import number_of, one_line, refusal
+from branchcrush.config.fields import Number, number_of, one_line, refusal
 
-_RANGE = {"from", "to", "states"}
 _MOST_STATES = 1000
+_STRESS = Number(above=0, most=1e15, unit="Pa").json_schema()
+_RANGE = {
+    "from": {"description": "Smallest stress [Pa].", **_STRESS},
+    "to": {"description": "Largest stress [Pa].", **_STRESS},
+    "states": {
+        "description": "Number of stresses, even in the logarithm.",
+        **Number(least=2, most=_MOST_STATES, whole=True).json_schema(),
+    },
+}
+# JSON schema of what `increasing_stresses` reads.
+STRESSES = {
+    "anyOf": [
+        *_STRESS["anyOf"],
+        {"type": "array", "items": _STRESS, "minItems": 1, "maxItems": _MOST_STATES},
+        {
+            "type": "object",
+            "properties": _RANGE,
+            "required": list(_RANGE),
+            "additionalProperties": False,
+        },
+    ]
+}
 _ALLOWED = (
     "must be a stress in Pa, an increasing list of them, or a range {from: 1e5, to: 1e7, states: 9}"
 )
@@ -55,7 +76,7 @@ def increasing_stresses(value: Any) -> list[float] | None:
 
 def _range(value):
     """Return the stresses of a range, even in the logarithm."""
-    if set(value) != _RANGE:
+    if set(value) != set(_RANGE):
         raise _refused(f"its keys are {', '.join(map(one_line, value)) or 'none'}")
     states = number_of(value["states"])
     if states is None or states != int(states) or not 2 <= states <= _MOST_STATES:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 # A state below this share of the largest energy carries nothing.
 _LOADED = 1e-12
 # Three parameters fit any fewer states.
-_FEWEST_STATES = 4
+FEWEST_STATES = 4
 # Where the search begins, as shares of the largest phi_J: noise makes side valleys.
 _STARTS = (0.7, 0.9, 0.99)
 
@@ -197,10 +197,9 @@ def fit_elasticity(
     phi, energy = _usable_states(solid_fraction, energy_density)
     largest = energy.max(initial=0.0)
     loaded = np.unique(phi[energy > _LOADED * largest])
-    if loaded.size < _FEWEST_STATES:
+    if loaded.size < FEWEST_STATES:
         raise ValueError(
-            f"{loaded.size} states carry load, the fit needs {_FEWEST_STATES}:"
-            " compress or save more"
+            f"{loaded.size} states carry load, the fit needs {FEWEST_STATES}: compress or save more"
         )
     root = np.sqrt(energy / largest)
 
@@ -212,7 +211,7 @@ def fit_elasticity(
         return (curve @ root) / (curve @ curve)
 
     # The densest states that the fit needs stay above phi_J.
-    ceiling = loaded[-_FEWEST_STATES]
+    ceiling = loaded[-FEWEST_STATES]
     fits = [
         least_squares(
             lambda parameters: (curve := shape(*parameters)) * factor(curve) - root,

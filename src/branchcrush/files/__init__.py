@@ -8,11 +8,20 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   version, sample, seed and sections of the configuration. `study_provenance` and `stacked_tables`
   are for the tables of all samples.
 - `seeds` reads the files of one seed as its contact network is made of them.
-- `grading_tables` reads a user's sieve curve, density or list of radii, and names every line that
-  is wrong; `rows` reads the numbers of such a file, whatever machine or person wrote it.
+- `grading_tables` reads a user's sieve curve, density, channels or list of radii as `declared`
+  says, and names every line that is wrong. `sheets` makes lines of cells of a file, whatever
+  machine or person wrote it (`decoding` of text, `spreadsheets` of workbooks), `columns` chooses
+  the two that are meant, `openings` and `headers` know words; `rows` are the numbers.
+- `sieve_tables` makes a curve of a sieving, `sieve_readings` holds its words and numbers against
+  what is declared; `channel_tables`, `channel_edges` and `channel_readings` are the like.
+- `dictionary` tells what every file of the results holds, each column and key with its type, unit
+  and meaning, from the TOML files in `meanings`; `datapackage` makes `datapackage.json` of it.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
-  leaves none by halves; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
+  leaves none by halves; `scratch` makes folders that are known to be nobody's when their process is
+  dead, and removes such ones; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.
 
-A newcomer adds a format of results to `tables`, beside the two of `write_table`; a kind of user's
-table to `grading_tables`, made of `rows.read_rows` and `rows.refuse`.
+A newcomer adds a result to the stage of `meanings` that it is of, and a test says what is missing
+there; a format of results to `tables`, beside the two of `write_table`; a kind of user's table to
+`grading_tables`, made of `columns.read_columns` and `rows.refuse`; a word of another
+language to `headers` or `openings`.
 """

@@ -1,34 +1,64 @@
-"""Gradings as files hold them: the curve of a sieving, a density, the sizes of single grains."""
+"""Gradings as files hold them: the curve of a sieving, a density, channels, sizes of grains."""
 
-from itertools import pairwise
+from dataclasses import dataclass, field
 from os import PathLike
 
 import numpy as np
 
-from branchcrush.files.rows import read_rows, refuse
+from branchcrush.files.channel_tables import channel_edges, density_rows
+from branchcrush.files.columns import read_columns
+from branchcrush.files.declared import Declared
+from branchcrush.files.rows import Row, read_rows, refuse
+from branchcrush.files.sieve_readings import contradictions
+from branchcrush.files.sieve_tables import NAMES, sieve_curve
 
 
-def read_sieve_table(
-    path: str | PathLike[str], smallest: float | None = None, largest: float | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    r"""Return the sieve curve of a file of two columns: opening and percent finer by mass.
+@dataclass(frozen=True)
+class SizeTable:
+    """Sizes of a file and what stands beside them.
+
+    Parameters
+    ----------
+    sizes : ndarray, shape (n,)
+        Increasing, in the unit that is declared.
+    values : ndarray, shape (n,) or, of channels, (n - 1,)
+    remarks : list of str
+        How the file was read.
+
+    Examples
+    --------
+    >>> SizeTable(np.array([1.0, 2.0]), np.array([0.0, 100.0])).remarks
+    []
+    """
+
+    sizes: np.ndarray
+    values: np.ndarray
+    remarks: list[str] = field(default_factory=list)
+
+
+def read_sieve_table(path: str | PathLike[str], declared: Declared | None = None) -> SizeTable:
+    r"""Return the sieve curve of a file: openings and percent finer by mass.
+
+    .. math:: F(d_i) = 100 - C(d_i) = 100 \sum_{d_j < d_i} m_j / \sum_j m_j
+
+    C is percent coarser, m what each sieve and the pan retain.
 
     Parameters
     ----------
     path : path-like
-    smallest, largest : float, optional
-        Sizes between which the curve is used, in the file's unit: there it need not go on to
-        0 and 100 percent.
+    declared : Declared, optional
+        What openings and values are; sizes and percent finer when left out.
 
     Returns
     -------
-    opening, percent : ndarray, shape (n,)
-        Increasing openings, in the file's unit, and percent finer [%].
+    SizeTable
+        Percent finer [%] at increasing openings.
 
     Raises
     ------
     GradingError
-        When it is no such file; one line for each problem, with the line of the file.
+        When it is no such file, or its words and numbers speak against what is declared; one line
+        for each problem, with the line of the file.
 
     Examples
     --------
@@ -36,40 +66,39 @@ def read_sieve_table(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "sand.csv")
     ...     _ = path.write_text("opening,finer\n2,100\n0.5,0\n")
-    ...     opening, percent = read_sieve_table(path)
-    ...     opening.tolist(), percent.tolist()
+    ...     table = read_sieve_table(path)
+    ...     table.sizes.tolist(), table.values.tolist()
     ([0.5, 2.0], [0.0, 100.0])
     """
-    rows, problems = _table(path, ("opening", "percent finer"), 100.0)
-    problems += [
-        f"line {high.line}: percent finer = {high.values[1]:g} at opening {high.values[0]:g} is "
-        f"less than {low.values[1]:g} at the smaller {low.values[0]:g} on line {low.line}; it "
-        "must not fall as openings grow: correct one of them"
-        for low, high in pairwise(rows)
-        if high.values[1] < low.values[1]
-    ]
-    # The ends of a curve that is wrong elsewhere say little.
-    refuse(path, problems or _wrong_range(rows, smallest, largest))
-    refuse(path, _wrong_ends(rows, smallest, largest))
-    opening, percent = np.array([row.values for row in rows]).T
-    return opening, percent
+    declared = declared or Declared()
+    table = read_columns(path, ("opening", NAMES[declared.kind]), declared.columns, declared.sheet)
+    against, curve = contradictions(table, declared), sieve_curve(table, declared)
+    # What is wrong with a table that is something else says little.
+    refuse(path, table.problems + (against or curve.problems))
+    rows = curve.rows
+    refuse(path, _wrong_range(rows, declared))
+    refuse(path, _wrong_ends(rows, declared))
+    sizes, percent = map(list, zip(*(row.values for row in rows), strict=True))
+    # What passes the last sieve goes down to the smallest grain, and the like above the first.
+    if percent[0] > 0 and declared.smallest is not None and declared.smallest < sizes[0]:
+        sizes, percent = [declared.smallest, *sizes], [0.0, *percent]
+    if percent[-1] < 100 and declared.largest is not None and declared.largest > sizes[-1]:
+        sizes, percent = [*sizes, declared.largest], [*percent, 100.0]
+    return SizeTable(np.array(sizes), np.array(percent), table.remarks + curve.remarks)
 
 
-def read_density_table(
-    path: str | PathLike[str], smallest: float | None = None, largest: float | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+def read_density_table(path: str | PathLike[str], declared: Declared | None = None) -> SizeTable:
     r"""Return the density of a file of two columns: size and density, of any scale.
 
     Parameters
     ----------
     path : path-like
-    smallest, largest : float, optional
-        Sizes between which the density is used, in the file's unit.
+    declared : Declared, optional
 
     Returns
     -------
-    size, density : ndarray, shape (n,)
-        Increasing sizes, in the file's unit, and the density as it is there.
+    SizeTable
+        Increasing sizes, and the density as it is there.
 
     Raises
     ------
@@ -82,18 +111,64 @@ def read_density_table(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "sand.csv")
     ...     _ = path.write_text("1,3\n2,1\n")
-    ...     size, density = read_density_table(path)
-    ...     size.tolist(), density.tolist()
-    ([1.0, 2.0], [3.0, 1.0])
+    ...     read_density_table(path).values.tolist()
+    [3.0, 1.0]
     """
-    rows, problems = _table(path, ("size", "density"), np.inf)
-    if rows and not problems and not any(row.values[1] for row in rows):
-        problems.append(
-            f"lines {rows[0].line} to {rows[-1].line}: every density = 0; one must be above 0"
-        )
-    refuse(path, problems or _wrong_range(rows, smallest, largest))
-    size, density = np.array([row.values for row in rows]).T
-    return size, density
+    declared = declared or Declared()
+    table = read_columns(path, ("size", "density"), declared.columns, declared.sheet)
+    rows, problems = density_rows(table, declared)
+    refuse(path, table.problems + problems)
+    refuse(path, _wrong_range(rows, declared))
+    sizes, density = np.array([row.values for row in rows]).T
+    return SizeTable(sizes, density, table.remarks)
+
+
+def read_histogram(path: str | PathLike[str], declared: Declared) -> SizeTable:
+    r"""Return the channels of a file: their edges, and what each of them holds.
+
+    Parameters
+    ----------
+    path : path-like
+    declared : Declared
+        With what of a channel the file's sizes are.
+
+    Returns
+    -------
+    SizeTable
+        n edges, and n - 1 values of any scale.
+
+    Raises
+    ------
+    GradingError
+        When it is no such file; one line for each problem, with the line of the file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "powder.csv")
+    ...     _ = path.write_text("10,20\n20,50\n40,30\n")
+    ...     table = read_histogram(path, Declared(sizes="lower", unit="um"))
+    ...     table.sizes.tolist(), table.values.tolist()
+    ([10.0, 20.0, 40.0, 80.0], [20.0, 50.0, 30.0])
+    """
+    edges = declared.sizes == "edges"
+    both, names = ("lower", "upper", "value"), ("size", "value")
+    if declared.columns and len(declared.columns) == 3:
+        names = both
+    table = read_columns(
+        path,
+        names,
+        declared.columns,
+        declared.sheet,
+        unfilled=edges,
+        wide=both if edges else (),
+    )
+    edges, values, remarks, problems = channel_edges(table, declared)
+    refuse(path, table.problems + problems)
+    rows = [Row(0, (edge, 0.0)) for edge in edges]
+    refuse(path, [problem.removeprefix("line 0: ") for problem in _wrong_range(rows, declared)])
+    return SizeTable(np.array(edges), np.array(values), table.remarks + remarks)
 
 
 def read_radii(path: str | PathLike[str]) -> np.ndarray:
@@ -130,32 +205,6 @@ def read_radii(path: str | PathLike[str]) -> np.ndarray:
     return np.sort([row.values[0] for row in rows])
 
 
-def _table(path, names, most):
-    """Return the usable rows by size, each once, and what is wrong with the others."""
-    name, other = names
-    rows, problems = read_rows(path, names)
-    allowed = "not be negative" if most == np.inf else f"lie between 0 and {most:g}"
-    problems += _not_positive(rows, name)
-    problems += [
-        f"line {row.line}: {other} = {row.values[1]:g}; must {allowed}: correct it"
-        for row in rows
-        if not 0 <= row.values[1] <= most
-    ]
-    usable = [row for row in rows if row.values[0] > 0 and 0 <= row.values[1] <= most]
-    kept = {}
-    for row in sorted(usable, key=lambda row: row.values[0]):
-        first = kept.setdefault(row.values[0], row)
-        if first.values != row.values:
-            problems.append(
-                f"line {row.line}: {name} {row.values[0]:g} has {other} = {row.values[1]:g} here "
-                f"and {first.values[1]:g} on line {first.line}; it must have one: remove a line"
-            )
-    if len(kept) < 2 and not problems:
-        where = f"line {rows[0].line}: one row" if rows else "line 1: no row"
-        problems.append(f"{where} of numbers; must be two or more different ones: add the rest")
-    return list(kept.values()), problems
-
-
 def _not_positive(rows, name):
     """Return which rows have no size above 0."""
     return [
@@ -165,42 +214,50 @@ def _not_positive(rows, name):
     ]
 
 
-def _wrong_range(rows, smallest, largest):
+def _wrong_range(rows, declared):
     """Return what is wrong with the sizes that a curve is cut at."""
-    problems = []
+    problems, unit = [], declared.unit
+    smallest, largest = declared.smallest, declared.largest
     first, last = rows[0], rows[-1]
     if smallest is not None and smallest >= last.values[0]:
         problems.append(
             f"line {last.line}: min = {smallest:g} must be below the largest size "
-            f"{last.values[0]:g}: lower min or check the unit"
+            f"{last.values[0]:g} {unit}: lower min or check the unit"
         )
     if largest is not None and largest <= first.values[0]:
         problems.append(
             f"line {first.line}: max = {largest:g} must be above the smallest size "
-            f"{first.values[0]:g}: raise max or check the unit"
+            f"{first.values[0]:g} {unit}: raise max or check the unit"
         )
     return problems
 
 
-def _wrong_ends(rows, smallest, largest):
+def _wrong_ends(rows, declared):
     """Return which end of a sieve curve is missing and not cut off."""
-    problems = []
+    problems, unit = [], declared.unit
     (low, first), (high, last) = rows[0].values, rows[-1].values
-    if last <= 1 and rows[-1].values[1] > 0:
+    if declared.kind == "percent_finer" and 0 < last <= 1:
         return [
             f"line {rows[-1].line}: percent finer ends at {last:g}, so these are fractions; "
             "multiply the column by 100"
         ]
-    if first > 0 and (smallest is None or smallest < low):
+    if declared.kind == "percent_coarser" and 99 <= first < 100:
+        return [
+            f"line {rows[0].line}: percent coarser ends at {100 - first:g}, so these are "
+            "fractions; multiply the column by 100"
+        ]
+    if first > 0 and declared.smallest is None:
         problems.append(
-            f"line {rows[0].line}: percent finer = {first:g} at the smallest opening {low:g}; must "
-            "be 0: add a row with the size of the smallest grain, below "
-            f"{low:g}, and 0, or set min to {low:g} or more to leave finer grains out"
+            f"line {rows[0].line}: percent finer = {first:.4g} at the smallest opening {low:g}; "
+            f"how small is the smallest grain? Set min to its size, below {low:g} {unit}, or to "
+            f"{low:g} or more to leave finer grains out; or add a row with that size, below "
+            f"{low:g}, and 0"
         )
-    if last < 100 and (largest is None or largest > high):
+    if last < 100 and declared.largest is None:
         problems.append(
-            f"line {rows[-1].line}: percent finer = {last:g} at the largest opening {high:g}; must "
-            "be 100: add a row with the size of the largest grain, above "
-            f"{high:g}, and 100, or set max to {high:g} or less to leave coarser grains out"
+            f"line {rows[-1].line}: percent finer = {last:.4g} at the largest opening {high:g}; "
+            f"how large is the largest grain? Set max to its size, above {high:g} {unit}, or to "
+            f"{high:g} or less to leave coarser grains out; or add a row with that size, above "
+            f"{high:g}, and 100"
         )
     return problems

@@ -15,8 +15,11 @@ simulation counts, or by mass, as a sieve weighs.
 `curves`
     What is read off a grading: diameters such as D50, its summary and its table beside the grains
     drawn.
-`representativity`
-    Whether N grains can stand for a grading, and how near the drawn ones come to it.
+`representativity`, `narrower`
+    Whether N grains can stand for a grading, how near the drawn ones come to it, and which narrower
+    range they could stand for.
+`size_fits`
+    Lognormal and Weibull curves through a few sizes, such as D10, D50 and D90.
 
 A new form is a function of `forms` that returns `truncated(density, ...)`, its entry in
 `config.build.FORMS`, and its section in `config.gradings`; the tests of

@@ -15,7 +15,7 @@ from branchcrush.packings.geometry import UNIT_SPHERE
 # The coarsest 10 % of the mass carry most of the load; few grains of them make a packing a sample
 # of its own. A box of few diameters is made of its walls.
 _REFUSED_GRAINS, _ENOUGH_GRAINS = 5, 10
-_REFUSED_DIAMETERS, _ENOUGH_DIAMETERS = 3, 5
+_REFUSED_DIAMETERS, ENOUGH_DIAMETERS = 3, 5
 _COARSE_SHARE = 0.1
 # A truncated tail reaches far beyond its last grain: the largest is where this mass is finer.
 _MASS_OF_LARGEST = 0.999
@@ -77,11 +77,7 @@ def representativity(grading: Grading, grains: int, solid_fraction: float) -> Re
     bulk = UNIT_SPHERE * grading.moment(3) / solid_fraction
     edge = float(np.cbrt(grains * bulk))
     coarse = float(grains * coarse_share)
-    # A whole number that rounding lifted a little needs no grain more.
-    needed = max(
-        np.ceil(_ENOUGH_GRAINS / coarse_share * (1 - 1e-9)),
-        np.ceil((_ENOUGH_DIAMETERS * diameter) ** 3 / bulk * (1 - 1e-9)),
-    )
+    needed = grains_needed(coarse_share, bulk / diameter**3)
     verdict: Literal["accept", "warn", "refuse"]
     if coarse < _REFUSED_GRAINS or edge < _REFUSED_DIAMETERS * diameter:
         verdict = "refuse"
@@ -96,7 +92,7 @@ def representativity(grading: Grading, grains: int, solid_fraction: float) -> Re
     if verdict != "accept":
         judged = "too few for this grading" if verdict == "refuse" else "few for this grading"
         message += (
-            f": {judged}; {_ENOUGH_GRAINS} grains and {_ENOUGH_DIAMETERS} diameters need "
+            f": {judged}; {_ENOUGH_GRAINS} grains and {ENOUGH_DIAMETERS} diameters need "
             f"{needed:.0f} grains, or a narrower grading"
         )
     return Representativity(
@@ -108,6 +104,37 @@ def representativity(grading: Grading, grains: int, solid_fraction: float) -> Re
         grains_needed=int(needed),
         verdict=verdict,
         message=message,
+    )
+
+
+def grains_needed(coarse_share: ArrayLike, bulk_over_largest: ArrayLike) -> NDArray:
+    r"""Return how many grains stand for a grading without a warning.
+
+    .. math:: \max\left(\left\lceil \frac{10}{N_{10}/N} \right\rceil,
+        \left\lceil 5^3 \frac{\phi D_{99.9}^3}{4 \pi \langle R^3 \rangle/3} \right\rceil\right)
+
+    Parameters
+    ----------
+    coarse_share : array_like, shape (...)
+        Share of the grains in the coarsest 10 % of the mass, N_10/N [-].
+    bulk_over_largest : array_like, shape (...)
+        Volume that a mean grain takes up, with its voids, over the cube of the largest diameter
+        [-].
+
+    Returns
+    -------
+    ndarray, shape (...)
+        nan where there are no grains.
+
+    Examples
+    --------
+    >>> grains_needed([0.1, 0.01], [1.0, 1.0]).tolist()
+    [125.0, 1000.0]
+    """
+    # A whole number that rounding lifted a little needs no grain more.
+    return np.maximum(
+        np.ceil(_ENOUGH_GRAINS / np.asarray(coarse_share) * (1 - 1e-9)),
+        np.ceil(ENOUGH_DIAMETERS**3 / np.asarray(bulk_over_largest) * (1 - 1e-9)),
     )
 
 

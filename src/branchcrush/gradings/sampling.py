@@ -3,8 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from branchcrush.errors import GradingError
 from branchcrush.gradings.distribution import Grading
 
+# Of any grading; a list of grains may also be "listed".
 METHODS = ("random", "number_quantiles", "mass_quantiles")
 
 
@@ -15,7 +17,7 @@ def sampled_radii(
 
     "random" draws them independently. "number_quantiles" takes the middle of N intervals of equal
     number, "mass_quantiles" the radius of the mean volume in each: its sieve curve meets the
-    target's at the end of every interval.
+    target's at the end of every interval. "listed" takes each grain of a list once, as it is.
 
     .. math:: R_i = F^{-1}\left(\frac{i - 1/2}{N}\right), \qquad
         R_i^3 = N \int_{(i-1)/N}^{i/N} \left(F^{-1}(q)\right)^3 dq
@@ -25,7 +27,7 @@ def sampled_radii(
     grading : Grading
     grains : int
         N.
-    method : {"random", "number_quantiles", "mass_quantiles"}
+    method : {"random", "number_quantiles", "mass_quantiles", "listed"}
         An interval across two single sizes has a grain between them by "mass_quantiles" only.
     rng : numpy.random.Generator or None
         Used by "random" only.
@@ -39,6 +41,8 @@ def sampled_radii(
     ------
     ValueError
         For an unknown method.
+    GradingError
+        By "listed", when the grading is no list of N grains.
 
     Examples
     --------
@@ -54,9 +58,23 @@ def sampled_radii(
         radii = grading.number_ppf((np.arange(grains) + 0.5) / grains)
     elif method == "mass_quantiles":
         radii = _radii_of_mean_volume(grading, grains)
+    elif method == "listed":
+        radii = _radii_of_list(grading, grains)
     else:
-        raise ValueError(f"method must be one of {', '.join(METHODS)}, not {method!r}")
+        raise ValueError(f"method must be one of {', '.join(METHODS)} or listed, not {method!r}")
     return np.sort(radii)[::-1]
+
+
+def _radii_of_list(grading: Grading, grains: int) -> NDArray:
+    single, share = grading.discrete_part
+    number = np.rint(share * grains)
+    # A grading of other shares is no list of so many grains.
+    if not grading.is_discrete or np.abs(share * grains - number).max() > 1e-6:
+        raise GradingError(
+            f"the grading is no list of {grains} grains, to be taken as they are: draw them by "
+            "another sampling"
+        )
+    return np.repeat(single, number.astype(int))
 
 
 def _radii_of_mean_volume(grading: Grading, grains: int) -> NDArray:

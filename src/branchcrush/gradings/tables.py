@@ -1,4 +1,4 @@
-"""Gradings from tables: a sieve curve, or a density at a few radii."""
+"""Gradings from tables: a sieve curve, channels, or a density at a few radii."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -87,26 +87,88 @@ def from_percent_finer(
     return _between(density_by_mass, radius, radius_min, radius_max, "mass")
 
 
+def from_histogram(
+    edges: ArrayLike,
+    shares: ArrayLike,
+    by: str,
+    radius_min: float | None = None,
+    radius_max: float | None = None,
+    scale: str = "log",
+) -> Grading:
+    r"""Return the grading of channels, each with its share of the grains spread evenly in it.
+
+    .. math:: P(R) = \frac{s_i}{\sum_j s_j} \frac{1}{R \ln(R_{i+1} / R_i)}
+
+    from one edge to the next; on a linear scale 1/(R_{i+1} - R_i) takes the place of the second
+    fraction.
+
+    Parameters
+    ----------
+    edges : array_like, shape (n + 1,)
+        Increasing radii that channels begin and end at [m].
+    shares : array_like, shape (n,)
+        Not negative, of any scale: percent, counts, masses.
+    by : {"number", "mass"}
+    radius_min, radius_max : float, optional
+        Grains below the one and above the other are left out [m].
+    scale : {"log", "linear"}
+        Over what grains are spread evenly within a channel.
+
+    Returns
+    -------
+    Grading
+
+    Raises
+    ------
+    GradingError
+        When these are no channels, or nothing is left between the two radii.
+
+    Examples
+    --------
+    >>> from_histogram([1.0, 2.0, 4.0], [30.0, 30.0], "mass").mass_ppf(0.25).round(9).item()
+    1.414213562
+    """
+    edges, shares = np.asarray(edges, dtype=float), np.asarray(shares, dtype=float)
+    usable = shares.ndim == 1 and np.isfinite(shares).all() and np.all(shares >= 0)
+    if not (usable and np.any(shares > 0)):
+        raise GradingError("channels must hold 0 or more each, and one of them more")
+    edges, _ = _columns(edges, np.append(0.0, shares))
+    held = np.flatnonzero(shares)
+    edges, shares = edges[held[0] : held[-1] + 2], shares[held[0] : held[-1] + 1]
+    heights = shares / np.diff(edges if scale == "linear" else np.log(edges))
+
+    def density(r: NDArray) -> NDArray:
+        place = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, heights.size - 1)
+        return heights[place] if scale == "linear" else heights[place] / r
+
+    return _between(density, edges, radius_min, radius_max, by)
+
+
 def from_density(
     radius: ArrayLike,
     density: ArrayLike,
     by: str,
     radius_min: float | None = None,
     radius_max: float | None = None,
+    per: str = "size",
 ) -> Grading:
     r"""Return the grading whose density is drawn straight from point to point.
 
-    .. math:: P(R) \propto P_k + (P_{k+1} - P_k) \frac{R - R_k}{R_{k+1} - R_k}
+    .. math:: P(R) \propto P_k + (P_{k+1} - P_k) \frac{x - x_k}{x_{k+1} - x_k} \frac{dx}{dR}
+
+    x is R, or ln R for a density per logarithm of size or per phi, which differ by a factor.
 
     Parameters
     ----------
     radius : array_like, shape (n,)
         Increasing [m].
     density : array_like, shape (n,)
-        Not negative, of any scale [1/m].
+        Not negative, of any scale [1/m, or - per logarithm].
     by : {"number", "mass"}
     radius_min, radius_max : float, optional
         Grains below the one and above the other are left out [m].
+    per : {"size", "log_size", "phi"}
+        What the density is taken per.
 
     Returns
     -------
@@ -128,7 +190,12 @@ def from_density(
     held = np.flatnonzero(density > 0)
     first, last = max(held[0] - 1, 0), min(held[-1] + 1, radius.size - 1)
     radius, density = radius[first : last + 1], density[first : last + 1]
-    return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
+    if per == "size":
+        return _between(lambda r: np.interp(r, radius, density), radius, radius_min, radius_max, by)
+    places = np.log(radius)
+    return _between(
+        lambda r: np.interp(np.log(r), places, density) / r, radius, radius_min, radius_max, by
+    )
 
 
 def _between(

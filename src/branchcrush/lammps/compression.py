@@ -1,7 +1,6 @@
 """The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
 
 import shutil
-import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -13,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
+from branchcrush.files.scratch import scratch_folder
 from branchcrush.gradings.sampling import sampled_radii
-from branchcrush.lammps.files import compress_file, write_data_file
+from branchcrush.lammps.files import compress_file, last_frame, write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.output import DUMPS, Compression, read_compression
 from branchcrush.lammps.run import run_script
@@ -124,6 +124,7 @@ def compress(
     folder: str | PathLike[str],
     log: str | PathLike[str],
     ranks: int = 1,
+    keep_dumps: Literal["all", "last", "none"] = "all",
 ) -> Compression:
     """Compress a packing in LAMMPS and return its loading path and contacts.
 
@@ -149,6 +150,8 @@ def compress(
         Where LAMMPS logs, a progress line each strain step.
     ranks : int
         MPI processes that share the packing.
+    keep_dumps : {"all", "last", "none"}
+        Of which states; those of an earlier run in the folder are not kept beside the new tables.
 
     Returns
     -------
@@ -162,10 +165,10 @@ def compress(
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     with (
-        tempfile.TemporaryDirectory(dir=folder, prefix=".compress-") as scratch,
-        tempfile.TemporaryDirectory(prefix="branchcrush-") as links,
+        scratch_folder(".compress-", folder) as scratch,
+        scratch_folder("branchcrush-") as links,
     ):
-        scratch, links = Path(scratch).resolve(), Path(links)
+        scratch = scratch.resolve()
         write_data_file(scratch / "packing.data", positions, radii, edge)
         # LAMMPS reads no path with a space in it, and the project may lie in such a one.
         (links / "inputs").symlink_to(Path(inputs).resolve())
@@ -178,6 +181,8 @@ def compress(
                 "inputs": links / "inputs",
                 "output_folder": links / "output",
                 "quit_on_failure": "no",
+                # For its progress lines: state 0 is as placed, state 1 the end of the approach.
+                "last_state": len(variables["targets"]) + 1,
             },
             log,
             ranks,
@@ -185,10 +190,14 @@ def compress(
         tables = read_compression(scratch, variables, stopped)
         # All of them whole before the first takes the place of an earlier run's.
         packed = [f"{name}.gz" for name in DUMPS]
-        for name, target in zip(DUMPS, packed, strict=True):
-            compress_file(scratch / name, scratch / target)
+        for name, target in zip(DUMPS, packed, strict=True) if keep_dumps != "none" else ():
+            start = last_frame(scratch / name) if keep_dumps == "last" else 0
+            compress_file(scratch / name, scratch / target, start)
         for target in packed:
-            shutil.move(scratch / target, folder / target)
+            if keep_dumps == "none":
+                (folder / target).unlink(missing_ok=True)
+            else:
+                shutil.move(scratch / target, folder / target)
     return tables
 
 
@@ -277,7 +286,7 @@ def trial(
     variables = sample_variables(few, packing.radii)
     variables |= {"control": "edge", "targets": [cube_edge(packing.radii, _TRIAL)]}
     variables |= {"strain_step": 1.0, "approach_steps": 20}
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".trial-") as scratch:
+    with scratch_folder(".trial-", folder) as scratch:
         start = time.perf_counter()
         result = compress(*packing, variables, inputs=inputs, folder=scratch, log=log)
         seconds = time.perf_counter() - start

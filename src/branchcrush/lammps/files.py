@@ -2,6 +2,7 @@
 
 import gzip
 import io
+import mmap
 import shutil
 from collections.abc import Iterator
 from itertools import islice
@@ -97,12 +98,47 @@ def read_dump(path: str | PathLike[str]) -> Iterator[dict[str, np.ndarray]]:
             yield _frame(file, int(header[3]), header[8].split()[2:])
 
 
-def compress_file(source: str | PathLike[str], target: str | PathLike[str]) -> None:
+def last_frame(path: str | PathLike[str]) -> int:
+    r"""Return where the last frame of a plain LAMMPS dump begins.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    int
+        Counted from the start of the file [bytes].
+
+    Raises
+    ------
+    ValueError
+        When there is no frame in it.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder, "pairs.dump")
+    ...     _ = path.write_text("ITEM: TIMESTEP\n0\nITEM: TIMESTEP\n7\n")
+    ...     last_frame(path)
+    17
+    """
+    with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as text:
+        start = text.rfind(b"ITEM: TIMESTEP")
+    if start < 0:
+        raise ValueError("the dump holds no frame")
+    return start
+
+
+def compress_file(source: str | PathLike[str], target: str | PathLike[str], start: int = 0) -> None:
     """Write a file gzipped, as one stream, the same bytes whenever it is done.
 
     Parameters
     ----------
     source, target : path-like
+    start : int
+        What lies before is left out [bytes].
 
     Examples
     --------
@@ -120,6 +156,7 @@ def compress_file(source: str | PathLike[str], target: str | PathLike[str]) -> N
         open(target, "wb") as file,
         gzip.GzipFile("", "wb", compresslevel=1, fileobj=file, mtime=0) as packed,
     ):
+        plain.seek(start)
         shutil.copyfileobj(plain, packed, _BUFFER)
 
 

@@ -26,6 +26,7 @@ class Compression(NamedTuple):
     contacts: dict  # a row for each contact and state, as `loading.states.state_contacts`
     walls: dict  # the same with walls, as `loading.states.wall_contacts`
     steps: dict  # a row for each strain step
+    compressed: dict  # a row for each grain at the end of the loading, before any unloading
 
 
 def read_compression(
@@ -55,7 +56,10 @@ def read_compression(
     scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
     lines = [dict(zip(scalars, line, strict=True)) for line in zip(*scalars.values(), strict=True)]
     frames = [read_dump(folder / name) for name in DUMPS]
-    state = partial(_state, variables=variables, first_edge=scalars["edge"][0])
+    compressed = {}
+    state = partial(
+        _state, variables=variables, first_edge=scalars["edge"][0], compressed=compressed
+    )
     # Unlike a loop over zip, map lets go of a frame before it reads the next one.
     path, contacts, walls = zip(*map(state, lines, *frames), strict=True)
     if len(path) < len(lines) or any(next(frame, None) is not None for frame in frames):
@@ -75,6 +79,7 @@ def read_compression(
         _table(path["state"], contacts),
         _table(path["state"], walls),
         _steps(steps, path["solid_fraction"][0] * path["volume_m3"][0]),
+        compressed,
     )
 
 
@@ -86,8 +91,11 @@ def _columns(path):
     return {name: np.array(column) for name, column in columns.items()}
 
 
-def _state(line, particles, pairs, *, variables, first_edge):
-    """Return the row of the path, the contacts and the wall contacts of a state."""
+def _state(line, particles, pairs, *, variables, first_edge, compressed):
+    """Return the row of the path, the contacts and the wall contacts of a state.
+
+    The grains of a state of the loading take the place of those of an earlier one.
+    """
     law = CONTACT_LAWS[variables["law"]].kind(variables["stiffness"])
     touching = state_contacts(pairs, particles["radius"], law)
     at_wall = wall_contacts(particles, line["edge"])
@@ -100,7 +108,12 @@ def _state(line, particles, pairs, *, variables, first_edge):
         law=law,
         periodic=variables["boundary"] == "periodic",
     )
-    return {**row, "leg": _leg(row["state"], variables), "stopped": ""}, touching, at_wall
+    leg = _leg(row["state"], variables)
+    if leg == "loading":
+        # Copies: a view would keep the whole frame.
+        grains = {f"{name}_m": particles[name].copy() for name in ("x", "y", "z", "radius")}
+        compressed.update(grains)
+    return {**row, "leg": leg, "stopped": ""}, touching, at_wall
 
 
 def _leg(state, variables):

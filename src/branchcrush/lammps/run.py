@@ -1,7 +1,6 @@
 """One run of a LAMMPS script: in this process, or over MPI ranks in processes of its own."""
 
 import contextlib
-import ctypes
 import json
 import os
 import re
@@ -9,15 +8,17 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Mapping
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from branchcrush.errors import SimulationError
+from branchcrush.files.scratch import scratch_folder
 from branchcrush.lammps.library import load_lammps
+from branchcrush.lammps.processes import end_with_parent
 
 
 def declared_variables(script: str | PathLike[str]) -> dict[str, str]:
@@ -34,6 +35,7 @@ def declared_variables(script: str | PathLike[str]) -> dict[str, str]:
 
     Examples
     --------
+    >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     script = Path(folder, "in.example")
     ...     _ = script.write_text("variable edge index 1.5\nvariable half equal v_edge/2\n")
@@ -86,8 +88,8 @@ def run_script(
     if ranks == 1:
         result = _run(script, arguments, ranks)
     else:
-        with tempfile.TemporaryDirectory(prefix="branchcrush-") as folder:
-            result = _run_on_ranks(script, arguments, ranks, Path(folder), log)
+        with scratch_folder("branchcrush-") as folder:
+            result = _run_on_ranks(script, arguments, ranks, folder, log)
     with open(log, "a", encoding="utf-8") as file:
         file.write(f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
     if result["error"]:
@@ -128,7 +130,7 @@ def _run(script, arguments, ranks):
 
 def _run_on_ranks(script, arguments, ranks, folder, log):
     """Run a script over MPI ranks; the first of them leaves the result in a file."""
-    job = [str(script), arguments, ranks]
+    job = [str(script), arguments, ranks, os.getpid()]
     (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
     launcher = _launcher()
     if launcher is None:
@@ -142,7 +144,7 @@ def _run_on_ranks(script, arguments, ranks, folder, log):
     environment = {
         name: value for name, value in os.environ.items() if not name.startswith("SLURM_")
     }
-    _end_with_parent()
+    end_with_parent()
     process = subprocess.Popen(
         [str(word) for word in command],
         stdin=subprocess.DEVNULL,
@@ -150,7 +152,7 @@ def _run_on_ranks(script, arguments, ranks, folder, log):
         stderr=subprocess.STDOUT,
         text=True,
         env={**environment, "HYDRA_LAUNCHER": "fork"},
-        preexec_fn=_end_with_parent,
+        preexec_fn=partial(end_with_parent, os.getpid()),
     )
     try:
         output, _ = process.communicate()
@@ -186,17 +188,10 @@ def _words(value):
     return [repr(float(item)) if isinstance(item, float) else str(item) for item in values]
 
 
-def _end_with_parent():
-    """End this process when its parent ends, whichever way that happens."""
-    if sys.platform == "linux":
-        set_parent_death_signal = 1
-        ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
-
-
 @contextlib.contextmanager
 def _interruptible():
     """Let Ctrl-C and the end of the parent process end a run that never returns to Python."""
-    _end_with_parent()
+    end_with_parent()
     before = signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         yield
@@ -218,7 +213,11 @@ def main(folder: str | PathLike[str]) -> None:
         When LAMMPS itself stops on this rank.
     """
     folder = Path(folder)
-    script, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
+    script, arguments, ranks, job = json.loads((folder / "job.json").read_text(encoding="utf-8"))
+    # From here on the launcher's end, which follows the job's, ends this rank: before, it may have
+    # been missed.
+    end_with_parent()
+    os.kill(job, 0)
     result = _run(Path(script), arguments, ranks)
     if result["rank"] == 0 or result["error"]:
         own = folder / f"result-{result['rank']}.json"

@@ -10,7 +10,7 @@ from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sample:
-    """A named entry of the configuration, as a job uses it: `config.build.sample_of` makes it."""
+    """A named entry of the configuration, as a job uses it: `config.sample.sample_of` makes it."""
 
     grading: Grading
     sampling: str  # how radii are drawn: one of `gradings.sampling.METHODS`

@@ -35,6 +35,38 @@ def sphere_volume(radius: ArrayLike) -> NDArray:
     return UNIT_SPHERE * np.asarray(radius, dtype=float) ** 3
 
 
+def shared_volume(radius: Real, other: Real, overlap: Real) -> Real:
+    r"""Return the volume that two overlapping spheres share, a lens.
+
+    .. math:: V = \frac{\pi \delta^2}{12 d}
+        \left(d^2 + 2 d (R_1 + R_2) - 3 (R_1 - R_2)^2\right), \quad d = R_1 + R_2 - \delta
+
+    Parameters
+    ----------
+    radius, other : float or ndarray, shape (M,)
+        R_1 and R_2 [m].
+    overlap : float or ndarray, shape (M,)
+        delta, from 0 to the diameter of the smaller sphere [m].
+
+    Returns
+    -------
+    float or ndarray, shape (M,)
+        [m3]
+
+    Examples
+    --------
+    >>> round(float(shared_volume(1.0, 1.0, 1.0) / np.pi * 12), 9)
+    5.0
+
+    References
+    ----------
+    Weisstein, Sphere-Sphere Intersection, MathWorld.
+    """
+    distance = radius + other - overlap
+    shape = distance**2 + 2 * distance * (radius + other) - 3 * (radius - other) ** 2
+    return np.pi * overlap**2 * shape / (12 * distance)
+
+
 def solid_volume(radii: ArrayLike) -> float:
     r"""Return the volume of all grains together.
 

@@ -1,6 +1,7 @@
-"""The certificate: how far every saved state is from its limits, and where each packing jams."""
+"""The certificate: how far states are from their limits, where packings jam, what steps change."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,6 +11,16 @@ from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, reas
 
 _PHI = r"solid fraction $\phi$ [-]"
 _LOOSE = "no saved state carries load"
+_QUANTITIES = {
+    "exponent": "$n$",
+    "mean_stress_Pa": "mean stress",
+    "elastic_energy_J": "elastic energy",
+    "mechanical_coordination_number": r"$\kappa^*$",
+    "jamming_solid_fraction": r"$\phi_J$",
+}
+_DECIDED = {"converged": OTHER, "not converged": MODEL, "not decided": FAINT}
+# So many tolerances away a change is drawn at the most.
+_FARTHEST = 4.0
 
 
 def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None) -> Axes:
@@ -46,14 +57,15 @@ def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None
     return widen(ax)
 
 
-def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
-    """Draw the overlaps over the smaller radius, with the value from which they are flagged.
+def plot_overlaps(states: Table, limit: float, ax: Axes | None = None) -> Axes:
+    """Draw the overlaps over the smaller radius, with the value from which they are noted.
 
     Parameters
     ----------
     states : DataFrame
         `certificate.csv`.
-    flag : float
+    limit : float
+        [-]
     ax : Axes, optional
 
     Returns
@@ -71,7 +83,7 @@ def plot_overlaps(states: Table, flag: float, ax: Axes | None = None) -> Axes:
     ):
         shown = 100 * loaded[column]
         ax.semilogy(loaded["solid_fraction"], shown, ".", color=color, ms=3, label=label)
-    ax.axhline(100 * flag, color=MODEL, ls="--", lw=0.8, label=f"flagged from {flag:.0%}")
+    ax.axhline(100 * limit, color=MODEL, ls="--", lw=0.8, label=f"noted from {limit:.0%}")
     ax.set(xlabel=_PHI, ylabel="overlap over the smaller radius [%]")
     low, high = ax.get_ylim()
     ax.set_ylim(low, 30 * high)
@@ -137,3 +149,49 @@ def plot_jamming(jamming: Table, ax: Axes | None = None) -> Axes:
     ax.set_ylim(low, high + 0.35 * (high - low))
     ax.legend(loc="upper left", title="bars: one standard deviation", title_fontsize=6.5)
     return ax
+
+
+def plot_convergence(rows: Sequence[Mapping[str, Any]], ax: Axes | None = None) -> Axes:
+    """Draw what twice the strain steps change, over what they may, with its 95 % interval.
+
+    A change of more than four times as much as it may be is drawn there.
+
+    Parameters
+    ----------
+    rows : list of dict
+        The `convergence` of `certificate.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    judged = [row for row in rows if row["verdict"]]
+    if not judged:
+        return reason(ax, "no packing certified with twice the strain steps too")
+    ax.axvspan(-1.0, 1.0, color=FAINT, alpha=0.25, lw=0, label="allowed")
+    for verdict, color in _DECIDED.items():
+        places = [place for place, row in enumerate(judged) if row["verdict"] == verdict]
+        change = [judged[place]["difference"] / judged[place]["tolerance"] for place in places]
+        change = np.clip(change, -_FARTHEST, _FARTHEST)
+        # One pair has no interval.
+        bars = [
+            (judged[place]["could_see"] or np.nan) / judged[place]["tolerance"] for place in places
+        ]
+        if places:
+            ax.errorbar(change, places, xerr=bars, fmt="o", ms=3, lw=1, color=color, label=verdict)
+    ax.axvline(0.0, color="black", lw=0.5)
+    low, high = ax.get_xlim()
+    ax.set_xlim(max(low, -1.1 * _FARTHEST), min(high, 1.1 * _FARTHEST))
+    ax.set_yticks(range(len(judged)), [_compared(row) for row in judged])
+    ax.set_ylim(len(judged) - 0.5, -0.5)
+    ax.set_xlabel("change with twice the strain steps over what is allowed [-], bars: 95 %")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
+    return ax
+
+
+def _compared(row):
+    once, twice = row["seeds"], row["seeds_at_twice_the_steps"]
+    how = f"{once} pairs" if row["compared_by"] == "pairs" else f"{once} against {twice}"
+    return f"{_QUANTITIES[row['quantity']]} ({how})"

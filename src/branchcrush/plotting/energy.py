@@ -116,11 +116,21 @@ def plot_exponent_path(path: Table, fit: EnergySplitFit, ax: Axes | None = None)
     top = ax.twiny()
     top.set_xlim(widen(ax).get_xlim())
     shown = np.linspace(0, len(path) - 1, min(5, len(path))).astype(int)
+    shown = _far_apart(shown, phi.to_numpy(), 0.1 * np.ptp(ax.get_xlim()))
     top.set_xticks(phi.iloc[shown], [f"{v:.3g}" for v in path["mean_stress_Pa"].iloc[shown] / 1e6])
     top.set_xlabel("mean stress [MPa]")
     top.spines["top"].set_visible(True)
     ax.legend(loc="best")
     return ax
+
+
+def _far_apart(rows, places, distance):
+    """Return the rows without those too near to the next, whose labels would overlap."""
+    kept = []
+    for row in reversed(rows):
+        if not kept or abs(places[kept[-1]] - places[row]) >= distance:
+            kept.append(row)
+    return kept[::-1]
 
 
 def _mark_thin(ax, x, y, counts, empty):

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Mapping
 
-import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -37,11 +36,33 @@ def draw_grading(path: Path, dpi: int, grading: Table) -> Figure:
     return ax.figure
 
 
+def draw_preview(
+    path: Path, dpi: int, grading: Mapping[str, NDArray], unit: str, drawn: str = "drawn"
+) -> Figure:
+    """Draw the grading of a sample that has not run, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    grading, unit, drawn
+        As for `plotting.gradings.plot_preview`.
+
+    Returns
+    -------
+    Figure
+    """
+    with figure(path, dpi) as ax:
+        gradings.plot_preview(grading, unit, drawn, ax)
+    return ax.figure
+
+
 def draw_packing(
     path: Path,
     dpi: int,
     packing: tuple[NDArray, NDArray, float],
-    particles: Mapping[str, NDArray],
+    compressed: Table,
     loading_path: Table,
     radius_max: float,
 ) -> Figure:
@@ -54,8 +75,8 @@ def draw_packing(
     dpi : int
     packing : tuple
         Positions, shape (N, 3), radii, shape (N,), and edge of `packing.npz` [m].
-    particles : mapping of ndarray, shape (N,)
-        The frame of `particles.dump.gz` at the end of the loading: x, y, z, radius [m].
+    compressed : DataFrame
+        `compressed.parquet` of the same packing.
     loading_path : DataFrame
         `path.csv` of this packing.
     radius_max : float
@@ -70,9 +91,9 @@ def draw_packing(
     scale = {"extent": edge, "radius_max": radius_max}
     with figure(path, dpi, *grid(1, 2)) as (before, after):
         plot_packing(positions, radii, edge, **scale, ax=before)
-        positions = np.column_stack([particles[axis] for axis in "xyz"])
+        positions = compressed[["x_m", "y_m", "z_m"]].to_numpy()
         last_edge = end["volume_m3"] ** (1 / 3)
-        plot_packing(positions, particles["radius"], last_edge, **scale, ax=after)
+        plot_packing(positions, compressed["radius_m"].to_numpy(), last_edge, **scale, ax=after)
         first = loading_path["solid_fraction"].iloc[0]
         before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
         after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")
@@ -82,7 +103,7 @@ def draw_packing(
 def draw_certificate(
     path: Path, dpi: int, states: Table, jamming: Table, verdict: Mapping
 ) -> Figure:
-    """Draw the certificate of every state and the jamming points, and return the figure.
+    """Draw the certificate of every state, jamming points and convergence, and return the figure.
 
     Parameters
     ----------
@@ -100,9 +121,15 @@ def draw_certificate(
     -------
     Figure
     """
-    with figure(path, dpi, *grid(2, 2)) as panels:
+    with figure(path, dpi, *grid(3, 2)) as panels:
         certificate.plot_rest(states, verdict["limits"], ax=panels[0, 0])
         certificate.plot_overlaps(states, OVERLAP_FLAG, ax=panels[0, 1])
         certificate.plot_dissipation(states, ax=panels[1, 0])
         certificate.plot_jamming(jamming, ax=panels[1, 1])
+        bottom = panels[2, 0].get_gridspec()[2, :]
+        for panel in panels[2]:
+            panel.remove()
+        certificate.plot_convergence(
+            verdict["convergence"], ax=panels[0, 0].figure.add_subplot(bottom)
+        )
     return panels[0, 0].figure

@@ -24,6 +24,8 @@ LIMITS = {
     "escaped": 0,
     "lost": 0,
 }
+# What a state or a sample is called whose numbers stand, with something to be read beside them.
+NOTED = "certified with notes"
 _MEANING = {
     "unbalanced_force_ratio": "not at rest: unbalanced force ratio",
     "inertial_number": "moving: inertial number",
@@ -68,7 +70,7 @@ def certificate_tables(
 def state_certificates(seeds: Sequence[int], paths: Sequence[pd.DataFrame]) -> pd.DataFrame:
     """Return the measures and the verdict of every saved state of every seed.
 
-    A state is certified when all its measures are within `LIMITS` and it carries load. Flags do
+    A state is certified when all its measures are within `LIMITS` and it carries load. Notes do
     not take a certificate away.
 
     Parameters
@@ -133,7 +135,7 @@ def _verdict(measures, carries_load, overlap):
     if not carries_load:
         return False, "no load", ""
     if overlap > OVERLAP_FLAG:
-        return True, "flagged", f"overlap at 95 % of the contacts is {overlap:.0%} of the radius"
+        return True, NOTED, f"overlap at 95 % of the contacts is {overlap:.0%} of the radius"
     return True, "certified", ""
 
 

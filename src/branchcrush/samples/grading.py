@@ -1,12 +1,13 @@
 """Rule grading: the grading that the seeds realise, beside the target and the ultimate."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from numpy.typing import ArrayLike
 
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.representativity import representativity, representativity_report
+from branchcrush.gradings.size_fits import SizeFit
 
 
 def grading_results(
@@ -16,6 +17,7 @@ def grading_results(
     radii: Sequence[ArrayLike],
     *,
     ultimate_alpha: float,
+    fits: Mapping[str, SizeFit] | None = None,
 ) -> tuple[dict, dict]:
     """Return the target grading beside what the seeds realise, and how well they stand for it.
 
@@ -31,13 +33,15 @@ def grading_results(
         Of the grains of each seed [m].
     ultimate_alpha : float
         Of the fractal grading that crushing leads to [-].
+    fits : mapping of SizeFit, optional
+        Curves through a few diameters [m] that the grading is made of, by key.
 
     Returns
     -------
     table : dict of ndarray
         From `gradings.curves.grading_table`.
     report : dict
-        From `gradings.representativity.representativity_report`.
+        From `gradings.representativity.representativity_report`, with `size_fits` where there are.
 
     Examples
     --------
@@ -48,7 +52,7 @@ def grading_results(
     """
     ultimate = ultimate_grading(grading, ultimate_alpha)
     standing = representativity(grading, grains, solid_fraction)
-    return (
-        grading_table(grading, radii, ultimate),
-        representativity_report(standing, grading, radii),
-    )
+    report = representativity_report(standing, grading, radii)
+    if fits:
+        report["size_fits"] = {key: fit.report() for key, fit in fits.items()}
+    return grading_table(grading, radii, ultimate), report

@@ -1,29 +1,48 @@
 """Rule verdict: convergence, the way back, and the verdict of a sample with its reasons."""
 
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
+import numpy as np
 import pandas as pd
 
 from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.errors import FitError
 from branchcrush.gradings.distribution import Grading
-from branchcrush.packings.contact_laws import OVERLAP_FLAG
-from branchcrush.samples.certificate import LIMITS
-from branchcrush.samples.convergence import convergence_table
+from branchcrush.samples.certificate import LIMITS, NOTED
+from branchcrush.samples.convergence import (
+    compared_packings,
+    convergence_table,
+    convergence_words,
+)
 from branchcrush.samples.ensemble import end_of_loading
+from branchcrush.samples.notes import (
+    convergence_notes,
+    grains_notes,
+    late_stop_notes,
+    loaded_early_notes,
+    overlap_notes,
+)
 from branchcrush.samples.seed_branches import state_sums
 from branchcrush.samples.unloading import unloading_summary
 from branchcrush.statistics.bins import bin_edges
+from branchcrush.statistics.power_law import binned_exponent
 
 # A path may end so when its loading is complete: words of lammps_inputs/mod.stress.
 _AFTER_LOADING = "comes loose on the way back"
-# What twice the strain steps may change before a sample counts as not converged.
-_LARGEST_CHANGE = 0.02
-_LARGEST_EXPONENT_CHANGE = 0.1
 # So many states that fail are named, the others counted.
 _MOST_NAMED = 5
 
 
-Run = tuple[Sequence[pd.DataFrame], Callable[[int, int], pd.DataFrame]]
+class Refined(NamedTuple):
+    """The first seeds of a sample, run again with twice the strain steps."""
+
+    states: pd.DataFrame  # `certificate.csv`
+    jamming: pd.DataFrame  # `jamming.csv`
+    paths: Sequence[pd.DataFrame]  # the `path.csv` of each seed
+    # Takes the number of one and a state and returns its `contacts.parquet` in that state, of it at
+    # least `samples.seed_branches.ENERGY_COLUMNS`.
+    contacts: Callable[[int, int], pd.DataFrame]
 
 
 def verdict_results(
@@ -32,9 +51,7 @@ def verdict_results(
     jamming: pd.DataFrame,
     paths: Sequence[pd.DataFrame],
     *,
-    refined_states: Sequence[pd.DataFrame],
-    once: Run,
-    twice: Run,
+    refined: Refined | None,
     report: dict,
     fit: EnergySplitFit,
     bins: int,
@@ -49,12 +66,8 @@ def verdict_results(
         `certificate.csv` and `jamming.csv`.
     paths : list of DataFrame
         The `path.csv` of each seed.
-    refined_states : list of DataFrame
-        The `certificate.csv` of the seeds run again with twice the strain steps, if there are any.
-    once, twice : tuple
-        Of these seeds in both runs: the list of their `path.csv`, and what takes the number of one
-        and a state and returns its `contacts.parquet` in that state, of it at least
-        `samples.seed_branches.ENERGY_COLUMNS`.
+    refined : Refined or None
+        None when no seed was run again.
     report : dict
         `grading.json`, for its representativity.
     fit : EnergySplitFit
@@ -68,16 +81,30 @@ def verdict_results(
     certificate : dict
         From `sample_certificate`, with the `unloading` of `samples.unloading.unloading_summary`.
     """
-    edges = bin_edges(*grading.support(), bins)
-    runs = []
-    for run_paths, read_seed in (once, twice):
-        ends = [int(end_of_loading(path)["state"]) for path in run_paths]
-        sums = [state_sums(read_seed(number, end), end, edges) for number, end in enumerate(ends)]
-        runs.append((run_paths, sums))
-    certificates = [states, *refined_states] if refined_states else []
-    convergence = convergence_table(certificates, *runs)
+    once = compared_packings(states, paths, jamming)
+    twice, exponents = once[:0], []
+    if refined is not None:
+        twice = compared_packings(refined.states, refined.paths, refined.jamming)
+        exponents = _exponents(refined, twice.index, bin_edges(*grading.support(), bins))
+    convergence = convergence_table(once, twice, fit.exponent_of_each_seed, exponents)
     certificate = sample_certificate(states, paths, jamming, convergence, report, fit)
     return convergence, {**certificate, "unloading": unloading_summary(paths, jamming)}
+
+
+def _exponents(refined, used, edges):
+    """Return n of each packing alone, of those that are certified at their end."""
+    exponents = []
+    for number, seed in enumerate(refined.states["seed"].unique()):
+        if seed not in used:
+            continue
+        end = int(end_of_loading(refined.paths[number])["state"])
+        sums = state_sums(refined.contacts(number, end), end, edges)
+        try:
+            fit, _ = binned_exponent(sums[None], rng=np.random.default_rng(0))
+            exponents.append(float(fit.exponent))
+        except FitError:
+            exponents.append(np.nan)
+    return exponents
 
 
 def sample_certificate(
@@ -90,7 +117,8 @@ def sample_certificate(
 ) -> dict:
     """Return the verdict of a sample, with its reasons and the worst of every measure.
 
-    A reason takes the certificate away, a flag does not.
+    A reason takes the certificate away; a note says what a number is to be read with, and what
+    that is likely to change.
 
     Parameters
     ----------
@@ -109,26 +137,27 @@ def sample_certificate(
     Returns
     -------
     dict
-        verdict: "certified", "flagged" or "not certified"; reasons; flags; limits; worst.
+        verdict: "certified", "certified with notes" or "not certified"; reasons, texts; notes, as
+        `samples.notes.Note.result`; limits; worst; `convergence`, and the same in words.
     """
     ends = pd.DataFrame([end_of_loading(path) for path in paths])
     ends["seed"] = states["seed"].unique()
     last = states.merge(ends[["seed", "state"]], on=["seed", "state"])
     stops, late_stops = _stops(ends["seed"], paths)
-    changed, undecided = _convergence(convergence)
+    changed = _not_converged(convergence)
     reasons = [*stops, *_without_load(last), *_failed(states), *changed, *_wide_interval(fit)]
-    flags = [
-        *undecided,
-        *late_stops,
-        *report["representativity"]["warnings"],
-        *_deep_overlaps(last),
-        *_loaded_early(jamming),
+    notes = [
+        *convergence_notes(convergence),
+        *late_stop_notes(late_stops),
+        *grains_notes(report["representativity"]),
+        *overlap_notes(last),
+        *loaded_early_notes(jamming),
     ]
     loaded = states[states["carries_load"]]
     return {
-        "verdict": "not certified" if reasons else "flagged" if flags else "certified",
+        "verdict": _grade(reasons, notes),
         "reasons": reasons,
-        "flags": flags,
+        "notes": [note.result() for note in notes],
         "seeds": len(paths),
         "seeds_certified": int(last["certified"].sum()),
         "states": len(states),
@@ -146,7 +175,14 @@ def sample_certificate(
         "jamming_solid_fraction_unloading": _mean(jamming["jamming_solid_fraction_unloading"]),
         "force_evaluations": _mean(pd.Series([p["force_evaluations"].iloc[-1] for p in paths])),
         "convergence": convergence.to_dict("records"),
+        "convergence_in_words": convergence_words(convergence),
     }
+
+
+def _grade(reasons, notes):
+    if reasons:
+        return "not certified"
+    return NOTED if notes else "certified"
 
 
 def _stops(seeds, paths):
@@ -183,38 +219,9 @@ def _failed(states):
     return [*reasons, f"and {more} more states"] if more > 0 else reasons
 
 
-def _convergence(table):
-    """Return what changes too much with twice the strain steps, and what is to be said of it."""
-    if not len(table):
-        return [], [
-            "convergence not checked: no seed was run again with twice the strain steps and "
-            "certified in both runs"
-        ]
-    from scipy.special import stdtrit  # slow to import, and few jobs need it
-
-    reasons, flags = [], []
-    for row in table[table["quantity"] != "force_evaluations"].itertuples():
-        allowed = (
-            _LARGEST_EXPONENT_CHANGE
-            if row.quantity == "exponent"
-            else _LARGEST_CHANGE * abs(row.value)
-        )
-        if not abs(row.difference) > allowed:  # nor where there is no number to compare
-            continue
-        changes = (
-            f"{row.quantity} changes from {row.value:.4g} to {row.value_at_twice_the_steps:.4g} "
-            "with twice the strain steps"
-        )
-        # Within the 95 % interval of the pairs, a difference may be chance: too few to tell.
-        noise = stdtrit(row.seeds - 1, 0.975) * row.standard_error_of_difference
-        if abs(row.difference) <= noise:
-            flags.append(
-                f"convergence not decided: {changes}, within ±{noise:.2g} of {row.seeds} pairs "
-                "of one seed: raise refined_seeds"
-            )
-        else:
-            reasons.append(f"not converged: {changes}: raise loading.quality")
-    return reasons, flags
+def _not_converged(table):
+    changed = table[table["verdict"] == "not converged"]
+    return [f"{words}: raise loading.quality" for words in convergence_words(changed)]
 
 
 def _wide_interval(fit):
@@ -227,22 +234,6 @@ def _wide_interval(fit):
         f"too few seeds or branches to tell n: its interval, {exponent.low:.2f} to "
         f"{exponent.high:.2f}, is wider than n itself"
     ]
-
-
-def _deep_overlaps(last):
-    if not (last["verdict"] == "flagged").any():
-        return []
-    return [
-        f"overlaps at the end: {last['median_overlap_ratio'].median():.1%} of the smaller "
-        f"radius in the median, {last['overlap_ratio_95'].median():.1%} at 95 % of the "
-        f"contacts; the contact law is one of small overlaps (flagged from {OVERLAP_FLAG:.0%})"
-    ]
-
-
-def _loaded_early(jamming):
-    if not jamming["loaded_from_the_start"].any():
-        return []
-    return ["the first strain step already carries load: lower loading.approach_solid_fraction"]
 
 
 def _mean(values):

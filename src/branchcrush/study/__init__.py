@@ -11,8 +11,9 @@
     side of each question.
 `comparison`, `summary`
     The row of a sample in `comparison.csv`, and the lines that a run ends with.
-`preview`
-    `sample_plan`: grains, time, memory and warnings of a sample before it runs.
+`preview`, `preview_text`
+    `sample_plan`: sizes, time, memory and warnings of a sample before it runs, and all of it as
+    text. `command.preview` makes both.
 `pages`
     `render_report` and `render_findings` fill the templates of `workflow/report`.
 

@@ -1,14 +1,20 @@
-"""What a study will be, cost and take, before it runs."""
+"""What a sample will be, cost and take, before it runs."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from branchcrush.branches.random_contacts import random_contact_moment
+from branchcrush.crushing.elasticity import FEWEST_STATES
 from branchcrush.crushing.model import admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.gradings.curves import grading_summary
 from branchcrush.gradings.distribution import Grading
-from branchcrush.gradings.representativity import representativity
+from branchcrush.gradings.mixtures import from_radii
+from branchcrush.gradings.narrower import narrower_words
+from branchcrush.gradings.representativity import realised_gap, representativity
+from branchcrush.gradings.size_fits import SizeFit
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
@@ -22,34 +28,86 @@ _TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
 _GROWTH = 1.0 / 3.0
 # Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
 _BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
+# The columns of the sizes: smallest, D10 to D90, largest [%].
+PERCENTS = (0, 10, 30, 50, 60, 90, 100)
+_LARGEST_GRAINS = 10
+
+
+class Sizes(NamedTuple):
+    """Diameters of a grading at `PERCENTS` [m], by mass and by number."""
+
+    by_mass: tuple[float, ...]
+    by_number: tuple[float, ...]
+
+    @property
+    def coefficients(self) -> tuple[float, float]:
+        """Coefficients of uniformity and of curvature, by mass [-]."""
+        _, d10, d30, _, d60, *_ = self.by_mass
+        return d60 / d10, d30**2 / (d10 * d60)
 
 
 class Plan(NamedTuple):
     """What a sample will be and cost; all seeds where it says so."""
 
-    grains: int
-    seeds: int
-    ranks: int
+    sample: Sample
+    unit: tuple[str, float]  # that the user gave sizes in: its name, and what it is [m]
+    asked: Sizes
+    drawn: Sizes  # by the first seed
+    ultimate: Sizes | None  # of a single size there is none
+    coarse_grains: tuple[float, int]  # in the coarsest 10 % of the mass: expected, and drawn
+    largest_grains: tuple[int, float]  # some of the drawn ones, and their share of the mass [-]
+    gap: float  # between the drawn and the asked sieve curve, the largest [%]
     first_edge: float  # [m]
     last_edge: float  # [m]
-    smallest_diameter: float  # [m]
-    largest_diameter: float  # [m]
+    states: int
+    overlap: float  # at the largest stress, over the radius; 0 of strains [-]
     force_evaluations: float  # of one packing
-    seconds: float  # of one core, all seeds and refined ones together
+    seconds: float  # of one core, all seeds and refined ones together; nan if no trial was possible
     memory: float  # of one job [bytes]
+    fits: Mapping[str, SizeFit]  # curves through a few sizes, by key
     warnings: list[str]
 
+    @property
+    def packings(self) -> int:
+        """All packings that are compressed, the refined ones too."""
+        return len(self.sample.seeds) + self.refined
 
-def sample_plan(sample: Sample, seconds_per_grain: float, ultimate: Grading | None) -> Plan:
+    @property
+    def refined(self) -> int:
+        """Packings that are run again with twice the strain steps."""
+        return min(self.sample.refined_seeds, len(self.sample.seeds))
+
+
+def sample_plan(
+    sample: Sample,
+    radii: ArrayLike,
+    seconds_per_grain: float,
+    ultimate: Grading | None,
+    *,
+    unit: tuple[str, float] = ("m", 1.0),
+    size: str = "diameter",
+    fits: Mapping[str, SizeFit] | None = None,
+    refused: bool = False,
+) -> Plan:
     """Return what a sample will be and cost, and what is to be warned of.
 
     Parameters
     ----------
     sample : Sample
+    radii : array_like, shape (N,)
+        Of the first seed's grains [m].
     seconds_per_grain : float
-        That a force evaluation takes on this machine [s].
+        That a force evaluation takes on this machine, nan where it is not known [s].
     ultimate : Grading or None
         From `gradings.curves.ultimate_grading`: what the crushing model crushes the grains to.
+    unit : tuple of str and float
+        That the user gives sizes in: its name, and what it is [m].
+    size : {"diameter", "radius"}
+        What the user's sizes are.
+    fits : mapping of SizeFit, optional
+        Curves through a few sizes [m] that the grading is made of, by key.
+    refused : bool
+        Whether a run will refuse grains that are too few.
 
     Returns
     -------
@@ -63,11 +121,13 @@ def sample_plan(sample: Sample, seconds_per_grain: float, ultimate: Grading | No
     >>> sample = Sample(grading=single(1e-3), sampling="random", grains=1000, boundary="walls",
     ...                 initial_solid_fraction=0.16, law=LinearContact(1e6), seeds=(1, 2),
     ...                 loading=Loading("edge_reduction", 0.4), strain_step=1.7e-3)
-    >>> plan = sample_plan(sample, 1e-7, None)
-    >>> plan.force_evaluations, round(plan.seconds, 9), plan.warnings
-    (34200.0, 6.84, [])
+    >>> plan = sample_plan(sample, [1e-3] * 1000, 1e-7, None)
+    >>> plan.force_evaluations, round(plan.seconds, 9), plan.asked.by_mass[3]
+    (34200.0, 6.84, 0.002)
     """
     grading, loading, grains = sample.grading, sample.loading, sample.grains
+    radii = np.sort(np.asarray(radii, dtype=float))[::-1]
+    drawn = from_radii(radii)
     solid = UNIT_SPHERE * grading.moment(3) * grains
     overlap = _overlap_ratio(sample)
     steps, states = planned_steps(
@@ -78,19 +138,61 @@ def sample_plan(sample: Sample, seconds_per_grain: float, ultimate: Grading | No
     # A refined seed takes twice the strain steps.
     refined = min(sample.refined_seeds, len(sample.seeds))
     packings = len(sample.seeds) + 2.0 * refined
-    summary = grading_summary(grading)
+    mass = np.cumsum(radii**3) / np.sum(radii**3)
+    standing = representativity(grading, grains, sample.end)
     return Plan(
-        grains=grains,
-        seeds=len(sample.seeds),
-        ranks=sample.ranks,
+        sample=sample,
+        unit=unit,
+        asked=sizes_of(grading),
+        drawn=sizes_of(drawn),
+        ultimate=None if ultimate is None else sizes_of(ultimate),
+        coarse_grains=(standing.coarse_grains, int(np.searchsorted(mass, 0.1 * (1 - 1e-12))) + 1),
+        largest_grains=(
+            min(_LARGEST_GRAINS, radii.size),
+            float(mass[min(_LARGEST_GRAINS, radii.size) - 1]),
+        ),
+        gap=realised_gap(grading, radii),
         first_edge=(solid / sample.initial_solid_fraction) ** (1.0 / 3.0),
         last_edge=(solid / sample.end) ** (1.0 / 3.0),
-        smallest_diameter=summary["D_min_m"],
-        largest_diameter=summary["D_max_m"],
+        states=states,
+        overlap=overlap,
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
         memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
-        warnings=_warnings(sample, overlap, ultimate),
+        fits=fits or {},
+        warnings=[
+            *_few_grains(sample, standing, (*unit, size), refused),
+            *_overlaps(overlap),
+            *_no_crushing(sample, ultimate),
+            *_few_seeds(sample),
+        ],
+    )
+
+
+def sizes_of(grading: Grading) -> Sizes:
+    """Return the diameters of a grading at `PERCENTS`, by mass and by number.
+
+    Parameters
+    ----------
+    grading : Grading
+
+    Returns
+    -------
+    Sizes
+        [m]
+
+    Examples
+    --------
+    >>> from branchcrush.gradings.forms import uniform
+    >>> sizes_of(uniform(1.0, 2.0)).by_number[:2]
+    (2.0, 2.2)
+    """
+    shares = np.array(PERCENTS) / 100.0
+    return Sizes(
+        *(
+            tuple((2.0 * quantile(shares)).round(15).tolist())
+            for quantile in (grading.mass_ppf, grading.number_ppf)
+        )
     )
 
 
@@ -103,72 +205,56 @@ def _overlap_ratio(sample: Sample) -> float:
     return expected_overlap_ratio(stresses[-1], radius, sample.law)
 
 
-def _warnings(sample: Sample, overlap: float, ultimate: Grading | None) -> list[str]:
-    warnings = []
-    standing = representativity(sample.grading, sample.grains, sample.end)
-    if standing.verdict != "accept":
-        warnings.append(standing.message)
-    if overlap > OVERLAP_FLAG:
+def _few_grains(sample, standing, unit, refused):
+    """Return whether grains are few for the grading, and what that leads to."""
+    if standing.verdict == "accept":
+        return []
+    narrower = narrower_words(sample.grading, sample.grains, sample.end, *unit)
+    if standing.verdict == "refuse" and refused:
+        leads = "the run refuses this unless allow_unrepresentative: true"
+    else:
+        leads = "few coarse grains carry most of the load, so seeds differ and n is less certain"
+    return [f"{standing.message}{narrower} -> {leads}"]
+
+
+def _overlaps(overlap):
+    if overlap <= OVERLAP_FLAG:
+        return []
+    return [
+        f"overlaps of about {overlap:.0%} of the radius: the certificate notes them from "
+        f"{OVERLAP_FLAG:.0%}, ask for less stress or raise the stiffness -> forces and energies "
+        "beyond what a contact law of small overlaps means"
+    ]
+
+
+def _no_crushing(sample, ultimate):
+    """Return what keeps the crushing model from having curves, as far as it is known before."""
+    warnings, states = [], len(sample.loading.stresses) or sample.loading.states
+    if states < FEWEST_STATES:
+        saved = "one saved state" if states == 1 else f"{states} saved states"
         warnings.append(
-            f"overlaps of about {overlap:.0%} of the radius: the certificate flags them from "
-            f"{OVERLAP_FLAG:.0%}; ask for less stress or raise the stiffness"
+            f"{saved}: an elastic law needs {FEWEST_STATES} that carry load -> no theta and no "
+            "curves of the crushing model"
         )
-    if ultimate is not None:
-        initial, crushed = (
-            random_contact_moment(grading, PAPER_EXPONENT) for grading in (sample.grading, ultimate)
+    if ultimate is None:
+        return [*warnings, "one size: no ultimate grading -> no crushing model, and n says little"]
+    initial, crushed = (
+        random_contact_moment(grading, PAPER_EXPONENT) for grading in (sample.grading, ultimate)
+    )
+    problem = admissibility_problem(initial, crushed)
+    if problem is not None:
+        # n is not known yet: the paper's is near enough to tell.
+        warnings.append(
+            f"the crushing model will have no curves at the paper's n = {PAPER_EXPONENT:g}, "
+            f"since {problem}"
         )
-        problem = admissibility_problem(initial, crushed)
-        if problem is not None:
-            # n is not known yet: the paper's is near enough to tell.
-            warnings.append(
-                f"the crushing model will have no curves at the paper's n = {PAPER_EXPONENT:g}, "
-                f"since {problem}"
-            )
     return warnings
 
 
-def preview_text(plans: Mapping[str, Plan], cores: int, time_step: str) -> str:
-    """Return the plans of all samples as text for a person.
-
-    Parameters
-    ----------
-    plans : dict of Plan
-        By sample.
-    cores : int
-        That will be used.
-    time_step : str
-        Of in.compress, over its time scale.
-
-    Returns
-    -------
-    str
-    """
-    lines, longest = [], 0.0
-    for name, plan in plans.items():
-        # Ranks of a packing keep as many cores busy, as many packings at a time as fit.
-        ranks = min(plan.ranks, cores)
-        minutes = plan.seconds / 60.0 / min(cores // ranks * ranks, plan.seeds * ranks)
-        if plan.ranks > cores:
-            warning = f"ranks {plan.ranks}, and {cores} core(s): {cores} are started"
-            plan = plan._replace(warnings=[*plan.warnings, warning])
-        longest = max(longest, minutes)
-        lines += [
-            f"{name}",
-            f"  grains              {plan.grains}, seeds {plan.seeds}",
-            f"  diameters           {plan.smallest_diameter:.4g} to {plan.largest_diameter:.4g} m",
-            f"  edge of the box     {plan.first_edge:.4g} m, at the end about "
-            f"{plan.last_edge:.4g} m ({plan.last_edge / plan.largest_diameter:.3g} diameters)",
-            f"  time step           {time_step} sqrt(m/k), of fictitious masses: not set by the "
-            "smallest grain",
-            f"  force evaluations   about {plan.force_evaluations:,.0f} a packing".replace(
-                ",", " "
-            ),
-            f"  time                about {minutes:.1f} minutes on {cores} core(s) of this "
-            "machine, half or twice as long",
-            f"  memory              about {plan.memory / 1e9:.1f} GB a job",
-            *(f"  warning             {warning}" for warning in plan.warnings),
-            "",
-        ]
-    total = max(longest, sum(plan.seconds for plan in plans.values()) / 60.0 / cores)
-    lines.append(f"all samples: about {total:.1f} minutes on {cores} core(s)")
-    return "\n".join(lines) + "\n"
+def _few_seeds(sample):
+    warnings = []
+    if len(sample.seeds) == 1:
+        warnings.append("one seed -> no interval of n")
+    if sample.refined_seeds == 0:
+        warnings.append("no refined seeds -> the certificate cannot tell whether steps are small")
+    return warnings

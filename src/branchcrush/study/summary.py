@@ -1,52 +1,55 @@
-"""Print what a run came to: `python -m branchcrush.study.summary results`."""
+"""What a run came to, in a few lines: those that every way of running ends with."""
 
 import csv
-import sys
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
 
-from branchcrush.statistics.intervals import interval_text
 
-
-def summary(results: str | PathLike[str]) -> str:
-    """Return the exponent of every sample with its interval, and where to look, as text.
+def summary(results: str | PathLike[str], shown_as: str | PathLike[str] | None = None) -> str:
+    """Return the verdict and the exponent of every sample, and where the pages are, as text.
 
     Parameters
     ----------
     results : path-like
         The folder of results.
+    shown_as : path-like, optional
+        The same folder as its reader sees it.
 
     Returns
     -------
     str
     """
-    results, lines = Path(results), []
+    results = Path(results)
+    shown = results if shown_as is None else Path(shown_as)
     # Without pandas, which takes half a second to import, for a few lines.
     with (results / "comparison.csv").open(encoding="utf-8", newline="") as file:
         next(file)  # where the table comes from
         rows = list(csv.DictReader(file))
-    for row in rows:
-        name = f"{row['sample']}: {row['verdict']}"
-        if not row["exponent"]:
-            lines.append(f"{name}, no exponent: {row['reason']}")
-            continue
-        ends = [float(row[f"exponent_{end}"] or "nan") for end in ("low", "high")]
-        exponent = interval_text(float(row["exponent"]), *ends)
-        if row["exponent_low"]:
-            confidence = float(row["confidence"])
-            exponent += f", {confidence:.0%} interval of {row['seeds_certified']} seeds"
-        lines.append(
-            f"{name}, n = {exponent}, at solid fraction {float(row['solid_fraction']):.3f}"
-        )
     return "\n".join(
         [
-            *lines,
-            f"report:   {results / 'report.html'}",
-            f"findings: {results / 'findings.html'}",
-            f"figures:  {results / 'figures'}",
+            *map(_sample_line, rows),
+            f"report:   {shown / 'report.html'}",
+            f"findings: {shown / 'findings.html'}",
+            f"figures:  {shown / 'figures'}",
         ]
     )
 
 
-if __name__ == "__main__":
-    print(summary(sys.argv[1] if len(sys.argv) > 1 else "results"))
+def _sample_line(row: Mapping[str, str]) -> str:
+    """Return what one sample came to."""
+    name = f"{row['sample']}: {row['verdict']}"
+    if not row["exponent"]:
+        return f"{name}, no exponent: {row['reason']}"
+    exponent = f"n = {float(row['exponent']):.2f}"
+    if row["exponent_low"]:
+        low, high, confidence = (
+            float(row[key]) for key in ("exponent_low", "exponent_high", "confidence")
+        )
+        exponent += (
+            f", with {100 * confidence:.4g} % confidence between {low:.2f} and {high:.2f} "
+            f"({row['seeds_certified']} packings)"
+        )
+    else:
+        exponent += " (one packing: no interval)"
+    return f"{name}, {exponent}, at solid fraction {float(row['solid_fraction']):.3f}"

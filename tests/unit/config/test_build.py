@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from branchcrush.config.build import FORMS, grading_of, sample_of
+from branchcrush.config.build import FORMS, grading_of
 from branchcrush.config.gradings import GradingSection
+from branchcrush.config.sample import sample_of
 from branchcrush.config.schema import checked_config
 from branchcrush.errors import GradingError
 from branchcrush.gradings.forms import uniform

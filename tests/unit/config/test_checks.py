@@ -10,7 +10,10 @@ from hypothesis import strategies as st
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study, sample_problems
+from branchcrush.config.sample import sample_of
 from branchcrush.errors import ConfigError
+from branchcrush.gradings.representativity import representativity
+from branchcrush.gradings.sampling import sampled_radii
 
 SIZES = {"basis": "number", "size": "radius", "unit": "mm"}
 UNIFORM = {"form": "uniform", **SIZES, "min": 0.5, "max": 1.0}
@@ -79,6 +82,59 @@ def study_of(**keys):
     return {"samples": {"mine": {**deepcopy(SAMPLE), **keys}}}
 
 
+# --- lists of grains -----------------------------------------------------------------------------
+
+
+def listed(folder, **keys):
+    """Return a study of a list of a hundred diameters, without grains and sampling."""
+    (folder / "list.txt").write_text("\n".join(f"{1 + k % 7 / 10}" for k in range(100)))
+    grading = {**SIZES, "form": "radii", "size": "diameter", "file": "list.txt"}
+    sample = {**SAMPLE, "grading": grading, **keys}
+    for key in {"grains", "sampling"} - set(keys):
+        del sample[key]
+    return {"samples": {"mine": sample}}
+
+
+@pytest.mark.parametrize("keys", [{}, {"grains": 100}, {"sampling": "listed"}])
+def test_a_list_is_taken_as_it_is_where_nothing_else_is_asked_for(folder, keys):
+    sample = sample_of(checked_study(listed(folder, **keys)).samples["mine"].settings())
+    assert (sample.grains, sample.sampling) == (100, "listed")
+    radii = sampled_radii(sample.grading, sample.grains, sample.sampling, None)
+    assert radii.tolist() == sorted(((1 + k % 7 / 10) * 5e-4 for k in range(100)), reverse=True)
+
+
+def test_a_list_of_another_length_is_refused_with_both_ways_out(folder):
+    (line,) = lines_of(listed(folder, grains=90))
+    assert line.startswith("config: samples.mine.grains = 90: the list list.txt has 100; leave")
+    assert "sampling: random" in line and "to draw 90 of such sizes" in line
+
+
+def test_sampling_draws_from_a_list_as_many_as_are_asked_for(folder):
+    settings = (
+        checked_study(listed(folder, grains=90, sampling="random")).samples["mine"].settings()
+    )
+    sample = sample_of(settings)
+    assert (sample.grains, sample.sampling) == (90, "random")
+    settings = checked_study(listed(folder, sampling="random")).samples["mine"].settings()
+    assert sample_of(settings).grains == 100
+
+
+def test_a_list_that_is_not_there_is_named_once(folder):
+    study = listed(folder)
+    (folder / "list.txt").unlink()
+    (line,) = lines_of(study)
+    assert "list.txt': there is no such file" in line
+
+
+def test_no_other_form_goes_without_a_number_or_is_taken_as_listed(folder):
+    (line,) = lines_of(study_of(grains=None))
+    assert line == (
+        "config: samples.mine.grains = nothing: must be a whole number from 2 to 10000000"
+    )
+    (line,) = lines_of(study_of(sampling="listed"))
+    assert line.startswith("config: samples.mine.sampling = 'listed': takes the grains of a list")
+
+
 # --- grains --------------------------------------------------------------------------------------
 
 
@@ -94,6 +150,26 @@ def test_too_few_grains_are_refused_unless_allowed(folder):
     assert line.startswith("config: samples.mine.grains = 40: 40 grains put ")
     assert line.endswith("or set allow_unrepresentative: true, which the report will repeat")
     checked_study(study_of(grading=wide, grains=40, allow_unrepresentative=True))
+
+
+def test_too_few_grains_are_told_which_part_of_the_grading_they_could_stand_for(folder):
+    # Of a fractal the coarse end: 400 grains stand for a ratio of 1.8 between its ends.
+    fractal = {"form": "fractal", **SIZES, "min": 0.005, "max": 1.0, "alpha": 2.6}
+    (line,) = lines_of(study_of(grading=fractal, grains=400))
+    part = line.split("with 400 grains radii ")[1].split(", ")[0]
+    low, _, high, unit = part.split()
+    assert (high, unit) == ("1", "mm") and 0.5 < float(low) < 0.7
+    narrower = {**fractal, "min": float(low)}
+    checked_study(study_of(grading=narrower, grains=400))
+    assert representativity(grading_of(narrower), 400, 0.16 / 0.6**3).verdict == "accept"
+
+
+def test_a_preview_lets_too_few_grains_through(folder):
+    wide = {**UNIFORM, "min": 0.005}
+    few = study_of(grading=wide, grains=40)
+    assert checked_study(few, few_grains=True).samples["mine"].grains == 40
+    with pytest.raises(ConfigError, match="allow_unrepresentative"):
+        checked_study(few)
 
 
 def test_a_cell_smaller_than_its_largest_grain_is_refused_though_allowed(folder):
@@ -166,8 +242,8 @@ def test_files_of_all_parts_of_a_mixture_are_named(folder):
     place = "config: samples.mine.grading.components"
     assert [line.removeprefix(place)[:43] for line in lines] == [
         ".0.grading.file = 'no.csv': there is no suc",
-        ".1.grading.file: wrong.csv, line 3: percent",
         ".1.grading.file: wrong.csv, line 2: percent",
+        ".1.grading.file: wrong.csv, line 3: percent",
         ".2.grading.file = '.': is a folder; give th",
     ]
 
@@ -179,17 +255,17 @@ def test_a_name_of_no_file_is_refused(folder, name):
 
 
 def test_a_missing_file_is_named_besides_another_mistake(folder):
-    lines = lines_of(study_of(grading={**SIEVE, "unit": "cm"}))
+    lines = lines_of(study_of(grading={**SIEVE, "unit": "ft"}))
     assert [line.split(" = ")[0][-12:] for line in lines] == ["grading.unit", "grading.file"]
 
 
 def test_missing_files_of_a_mixture_are_named_besides_another_mistake(folder):
-    parts = [{**SIEVE, "file": "no.csv"}, {**UNIFORM, "unit": "cm"}]
+    parts = [{**SIEVE, "file": "no.csv"}, {**UNIFORM, "unit": "ft"}]
     components = [{"weight": 1, "grading": part} for part in parts]
     wrong, missing = lines_of(
         study_of(grading={"form": "mixture", "basis": "mass", "components": components})
     )
-    assert wrong.startswith("config: samples.mine.grading.components.1.grading.unit = 'cm'")
+    assert wrong.startswith("config: samples.mine.grading.components.1.grading.unit = 'ft'")
     assert missing.startswith("config: samples.mine.grading.components.0.grading.file = 'no.csv'")
 
 

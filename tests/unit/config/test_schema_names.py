@@ -63,6 +63,7 @@ def test_name_kept_for_the_convergence_study_is_refused():
         "findings",
         "comparison.csv",
         "coordination.csv",
+        "datapackage.json",
         "exponents.csv",
         "findings.csv",
         "findings.html",

@@ -42,7 +42,7 @@ def message_of(raw):
     ("path", "value", "shown", "allowed"),
     [
         ("samples.mine.grading.form", "gaussian", "'gaussian'", "'fractal'"),
-        ("samples.mine.grading.unit", "cm", "'cm'", "must be 'm', 'mm' or 'um'"),
+        ("samples.mine.grading.unit", "ft", "'ft'", "must be 'm', 'cm', 'mm', 'um' or 'inch'"),
         ("samples.mine.grading.min", -1.0, "-1 m", "a number above 0 m"),
         ("samples.mine.grading.min", 0, "0 m", "a number above 0 m"),
         ("samples.mine.grading.max", nan, "nan", "a number above 0 m"),
@@ -199,7 +199,7 @@ def test_unknown_key_with_no_near_one_is_answered_with_all_that_are_allowed():
         "samples.mine.contact.viscosity: unknown key; allowed: law, normal_stiffness"
     )
     message = message_of({"samples": {"mine": SAMPLE}, "plots": {}})
-    assert message.endswith("allowed: samples, energy_split, thermodynamics, figures")
+    assert message.endswith("allowed: samples, energy_split, thermodynamics, figures, keep_dumps")
 
 
 def test_sizes_out_of_order_are_refused_with_both():

@@ -4,6 +4,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from branchcrush.errors import GradingError
+from branchcrush.files.declared import Declared
 from branchcrush.files.grading_tables import read_density_table, read_radii, read_sieve_table
 
 OPENING, PERCENT = [0.063, 0.5, 2.0, 8.0], [0.0, 12.5, 60.0, 100.0]
@@ -20,6 +21,10 @@ def written(tmp_path):
         return path
 
     return write
+
+
+def between(smallest, largest):
+    return Declared(smallest=smallest, largest=largest)
 
 
 def problems_of(read, path, *arguments):
@@ -50,7 +55,7 @@ def problems_of(read, path, *arguments):
         PLAIN.replace("\n", "\r"),
         PLAIN.replace(",", ";"),
         PLAIN.replace(",", ";").replace(".", ","),
-        "Öffnung [µm];Durchgang\n" + PLAIN.replace(",", "; ").replace(".", ","),
+        "Öffnung [mm];Durchgang\n" + PLAIN.replace(",", "; ").replace(".", ","),
         PLAIN.replace(",", "\t"),
         PLAIN.replace(",", "   "),
         PLAIN.replace(",", ", "),
@@ -62,28 +67,43 @@ def problems_of(read, path, *arguments):
         "0.063,0\n8,100\n0.5,12.5\n2,60\n",
         PLAIN + "2,60\n2.0,60.0\n",
         "6.3e-2,0\n5E-1,12.5\n2,60\n8,1e2\n",
+        ("Öffnung [mm];Durchgang\n" + PLAIN.replace(",", ";")).encode("cp1252"),
+        PLAIN.replace(",", "\t").replace(".", ","),
+        PLAIN.replace(",", " ").replace(".", ","),
+        PLAIN.replace("\n", " %\n"),
+        "63 µm,0\n0.5 mm,12.5\n0.2 cm,60\n8,100\n",
+        "\n\n".join([PLAIN, "pan,0\n"]),
+        "Sand of the river\nweighed; twice\n\nopening,finer\n" + PLAIN,
+        "Sample;12\nMass (g);500,5\nmm;Durchgang\n" + PLAIN.replace(",", ";").replace(".", ","),
+        PLAIN + "Total,100\n",
     ],
 )
 def test_every_usual_way_to_write_a_table_is_read(written, content):
-    opening, percent = read_sieve_table(written(content))
-    assert_array_equal(opening, OPENING)
-    assert_array_equal(percent, PERCENT)
+    table = read_sieve_table(written(content))
+    assert_array_equal(table.sizes, OPENING)
+    assert_array_equal(table.values, PERCENT)
 
 
 def test_level_part_of_a_curve_is_no_mistake(written):
-    _, percent = read_sieve_table(written("1,0\n2,40\n4,40\n8,100\n"))
+    percent = read_sieve_table(written("1,0\n2,40\n4,40\n8,100\n")).values
     assert percent.tolist() == [0, 40, 40, 100]
 
 
 def test_curve_that_is_cut_need_not_run_to_its_ends(written):
     path = written("0.1,5\n1,50\n4,95\n")
-    assert read_sieve_table(path, 0.1, 4.0)[0].tolist() == [0.1, 1.0, 4.0]
-    assert read_sieve_table(path, 0.5, 3.0)[1].tolist() == [5.0, 50.0, 95.0]
+    assert read_sieve_table(path, between(0.1, 4.0)).sizes.tolist() == [0.1, 1.0, 4.0]
+    assert read_sieve_table(path, between(0.5, 3.0)).values.tolist() == [5.0, 50.0, 95.0]
+
+
+def test_grains_beyond_the_sieves_go_to_the_smallest_and_the_largest(written):
+    table = read_sieve_table(written("0.1,5\n1,50\n4,95\n"), between(0.02, 9.0))
+    assert table.sizes.tolist() == [0.02, 0.1, 1.0, 4.0, 9.0]
+    assert table.values.tolist() == [0.0, 5.0, 50.0, 95.0, 100.0]
 
 
 def test_density_table_is_sorted(written):
-    size, density = read_density_table(written("size;density\n2;0,5\n1;3\n4;0\n1;3\n"))
-    assert (size.tolist(), density.tolist()) == ([1, 2, 4], [3, 0.5, 0])
+    table = read_density_table(written("size;density\n2;0,5\n1;3\n4;0\n1;3\n"))
+    assert (table.sizes.tolist(), table.values.tolist()) == ([1, 2, 4], [3, 0.5, 0])
 
 
 def test_every_line_of_radii_is_a_grain(written):
@@ -102,7 +122,7 @@ def test_every_line_of_radii_is_a_grain(written):
         (" \n\t\r\n", ["empty"]),
         (b"PK\x03\x04\x00\x00\x08\x00", ["no text in UTF-8", "save the table as CSV"]),
         (b"\x89PNG\r\n\x1a\n", ["no text in UTF-8"]),
-        ("Öffnung;Durchgang\n1;2\n".encode("cp1252"), ["no text in UTF-8"]),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\0\0", ["old .xls", "as .xlsx"]),
     ],
 )
 def test_file_without_text_is_refused(written, read, content, words):
@@ -137,8 +157,8 @@ def test_file_without_numbers_is_refused(written, content):
         ("1,0\n2,50,7\n4,100\n", ["line 2: 3 columns, 2 | 50 | 7", "opening, percent finer"]),
         ("1,0\n2\n4,100\n", ["line 2: 1 column, 2;", "must have 2"]),
         ("0,5 1,5 0\n8 1 9\n", ["line 1: 3 columns", "Decimal commas need semicolons"]),
-        ("0,5 0\n8,1 100\n", ["line 1: percent finer = '5 0'", "Decimal commas need semicolons"]),
-        ("0,5\t0\n8,1\t100\n", ["line 1: opening = '0,5'", "Decimal commas need semicolons"]),
+        ("1,000\t0\n8,100\t100\n", ["line 1: opening = '1,000'", "Decimal commas need"]),
+        ("0,5;0\n8.1;100\n", ["line 1: opening = '0,5'", "Decimal commas need semicolons"]),
         ("1,0\n2,abc\n4,100\n", ["line 2: percent finer = 'abc'", "no finite number"]),
         ("1,0\nx,50\n4,100\n", ["line 2: opening = 'x'", "no finite number"]),
         ("1,zero\n4,100\n", ["line 1: percent finer = 'zero'"]),
@@ -147,7 +167,8 @@ def test_file_without_numbers_is_refused(written, content):
         ("1,0\n2,\n4,100\n", ["line 2: 1 column"]),
         ("1,0\n,50\n4,100\n", ["line 2: opening = ''"]),
         ("1,0\n1_000,100\n", ["line 2: opening = '1_000'"]),
-        ("0,0\n1,50\n2,100\n", ["line 1: opening = 0;", "above 0"]),
+        ("0,0\n1,50\n2,100\n", ["line 2: percent finer = 50", "how small", "Set min"]),
+        ("0,5\n1,50\n2,100\n", ["line 1: percent finer = 5 at the pan; must be 0"]),
         ("-1,0\n1,0\n2,100\n", ["line 1: opening = -1;", "above 0"]),
         ("1,-5\n2,0\n4,100\n", ["line 1: percent finer = -5;", "between 0 and 100"]),
         ("1,0\n2,50\n4,100.5\n8,100\n", ["line 3: percent finer = 100.5;", "between 0 and 100"]),
@@ -156,8 +177,8 @@ def test_file_without_numbers_is_refused(written, content):
             ["line 4: percent finer = 30 at opening 4", "50", "line 3", "not fall"],
         ),
         ("1,0\n2,50\n2,60\n4,100\n", ["line 3: opening 2", "= 60", "50 on line 2"]),
-        ("1,5\n4,100\n", ["line 1: percent finer = 5", "below 1, and 0", "set min to 1"]),
-        ("1,0\n4,90\n", ["line 2: percent finer = 90", "above 4, and 100", "set max to 4"]),
+        ("1,5\n4,100\n", ["line 1: percent finer = 5", "below 1, and 0", "Set min to its size"]),
+        ("1,0\n4,90\n", ["line 2: percent finer = 90", "above 4, and 100", "Set max to its size"]),
         ("1,0\n4,1.0\n", ["line 2", "fractions", "by 100"]),
     ],
 )
@@ -173,7 +194,7 @@ def test_all_problems_of_a_file_are_told_at_once(written):
     content = "h,h\n0,0\n1,x\n2,150\n3,1,1\n4,60\n5,50\n4,70\n"
     messages = problems_of(read_sieve_table, written(content))
     lines = sorted(message.split(":")[0] for message in messages)
-    assert lines == [f"line {n}" for n in (2, 3, 4, 5, 7, 8)]
+    assert lines == [f"line {n}" for n in (3, 4, 5, 7, 8)]
 
 
 def test_both_ends_of_a_curve_are_told_at_once(written):
@@ -189,16 +210,13 @@ def test_many_problems_are_counted(written):
 
 def test_bounds_beside_a_curve_are_refused(written):
     path = written(PLAIN)
-    (message,) = problems_of(read_sieve_table, path, 8.0, None)
+    (message,) = problems_of(read_sieve_table, path, between(8.0, None))
     assert "min = 8 must be below the largest size 8" in message
     for largest in (0.01, 0.063):
-        (message,) = problems_of(read_sieve_table, path, None, largest)
+        (message,) = problems_of(read_sieve_table, path, between(None, largest))
         assert f"max = {largest} must be above the smallest size 0.063" in message
-    (message,) = problems_of(read_density_table, written("1,1\n4,1\n"), 4.0, None)
+    (message,) = problems_of(read_density_table, written("1,1\n4,1\n"), between(4.0, None))
     assert "line 2: min = 4 must be below the largest size 4" in message
-    # Below a curve that does not start at 0, a bound does not help.
-    (message,) = problems_of(read_sieve_table, written("1,5\n4,100\n"), 0.5, None)
-    assert "set min to 1 or more" in message
 
 
 @pytest.mark.parametrize(

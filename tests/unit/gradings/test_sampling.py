@@ -4,9 +4,12 @@ import time
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy import stats
 
+from branchcrush.errors import GradingError
 from branchcrush.gradings.forms import fractal, normal, uniform
 from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.representativity import realised_gap
@@ -103,10 +106,10 @@ def test_all_grains_of_one_size_are_exactly_it(method):
 
 
 def test_quantiles_of_given_radii_are_these():
-    given = np.random.default_rng(1).uniform(1.0, 9.0, 50)
+    sizes = np.random.default_rng(1).uniform(1.0, 9.0, 50)
     for method in ("number_quantiles", "mass_quantiles"):
-        radii = sampled_radii(from_radii(given), 50, method, None)
-        assert_allclose(radii, np.sort(given)[::-1], rtol=1e-10)
+        radii = sampled_radii(from_radii(sizes), 50, method, None)
+        assert_allclose(radii, np.sort(sizes)[::-1], rtol=1e-10)
 
 
 def test_mass_quantiles_are_nearest_to_the_sieve_curve():
@@ -125,3 +128,22 @@ def test_many_grains_take_no_time(method):
 def test_unknown_method_is_refused():
     with pytest.raises(ValueError, match="'sobol'"):
         sampled_radii(single(1.0), 3, "sobol", None)
+
+
+def test_a_list_is_taken_as_it_is():
+    sizes = np.array([0.01220, 0.01445, 0.00998, 0.01220, 0.02242]) / 2
+    radii = sampled_radii(from_radii(sizes), 5, "listed", None)
+    assert radii.tolist() == [0.01121, 0.007225, 0.0061, 0.0061, 0.00499]
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(st.floats(1e-6, 1e3), min_size=1, max_size=300))
+def test_any_list_is_taken_as_it_is(sizes):
+    radii = sampled_radii(from_radii(sizes), len(sizes), "listed", None)
+    assert radii.tolist() == sorted(sizes, reverse=True)
+
+
+@pytest.mark.parametrize("grading", [from_radii([1.0, 2.0, 3.0]), uniform(1.0, 2.0)])
+def test_what_is_no_list_of_so_many_grains_is_refused(grading):
+    with pytest.raises(GradingError, match="no list of 4 grains"):
+        sampled_radii(grading, 4, "listed", None)

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from branchcrush.errors import GradingError
 from branchcrush.gradings.forms import uniform
-from branchcrush.gradings.tables import from_density, from_percent_finer
+from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
 
 
 def test_sieve_curve_goes_through_its_points():
@@ -82,3 +82,27 @@ def test_range_without_density_at_the_end_of_a_table_is_left_out():
 def test_unusable_table_is_refused(refused):
     with pytest.raises(GradingError):
         refused()
+
+
+def test_channels_hold_their_shares_evenly_on_their_scale():
+    edges, shares = [1.0, 2.0, 4.0, 8.0], [0.0, 30.0, 90.0]
+    for by in ("number", "mass"):
+        log = from_histogram(edges, shares, by)
+        linear = from_histogram(edges, shares, by, scale="linear")
+        for grading, middle in ((log, 2 * 2**0.5), (linear, 3.0)):
+            finer = getattr(grading, f"{by}_cdf")
+            assert_allclose(finer([2.0, middle, 4.0, 8.0]), [0, 0.125, 0.25, 1], atol=1e-12)
+    assert from_histogram(edges, shares, "mass", 3.0).support() == (3.0, 8.0)
+
+
+def test_density_per_logarithm_is_drawn_straight_over_the_logarithm():
+    flat = from_density([1.0, 100.0], [1.0, 1.0], "mass", per="log_size")
+    assert_allclose(flat.mass_cdf([10.0, 31.6227766]), [0.5, 0.75], atol=1e-9)
+    rising = from_density([1.0, 100.0], [0.0, 1.0], "mass", per="phi")
+    assert_allclose(rising.mass_cdf(10.0), 0.25, atol=1e-12)
+
+
+@pytest.mark.parametrize("shares", [[0.0, 0.0], [1.0, -1.0], [1.0], [1.0, float("nan")]])
+def test_what_are_no_channels_is_refused(shares):
+    with pytest.raises(GradingError):
+        from_histogram([1.0, 2.0, 4.0], shares, "mass")

@@ -108,6 +108,15 @@ def test_walls_have_a_row_for_each_contact_and_state(folder):
     }
 
 
+def test_grains_are_told_at_the_end_of_the_loading_and_not_of_the_way_back(folder):
+    assert tables_of(folder, VARIABLES, "").compressed.to_dict("list") == {
+        "x_m": [-0.875, 0.875],
+        "y_m": [0.0, 0.0],
+        "z_m": [0.0, 0.0],
+        "radius_m": [1.0, 1.0],
+    }
+
+
 def test_kinds_of_columns_are_those_of_numbers_counts_and_words(folder):
     result = tables_of(folder, VARIABLES, "")
     kinds = {name: str(kind) for name, kind in result.contacts.dtypes.items()}
@@ -232,7 +241,7 @@ from branchcrush.files.tables import write_table
 from branchcrush.lammps.output import read_compression
 
 for name, table in read_compression(Path("."), {VARIABLES}, "")._asdict().items():
-    kind = "parquet" if name in ("contacts", "walls") else "csv"
+    kind = "parquet" if name in ("contacts", "walls", "compressed") else "csv"
     write_table(f"{{name}}.{{kind}}", table, {{}})
 # It takes half a second to import, as much as all else that a job does beside LAMMPS.
 assert "pandas" not in sys.modules

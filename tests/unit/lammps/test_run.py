@@ -1,6 +1,7 @@
 """A script of LAMMPS is run with its variables, and tells how it ended."""
 
 import json
+import os
 import re
 import sys
 
@@ -102,10 +103,11 @@ def test_ranks_without_a_launcher_are_refused(run, tmp_path, monkeypatch):
         run(SCRIPT, {}, ranks=3)
 
 
-def job_in(folder, text):
+def job_in(folder, text, job=None):
+    job = job or os.getpid()
     (folder / "in.example").write_text(text)
     arguments = ["-screen", "none", "-log", "none"]
-    (folder / "job.json").write_text(json.dumps([str(folder / "in.example"), arguments, 1]))
+    (folder / "job.json").write_text(json.dumps([str(folder / "in.example"), arguments, 1, job]))
 
 
 def test_rank_leaves_its_result_in_the_folder_of_its_job(tmp_path):
@@ -127,6 +129,13 @@ def test_rank_that_fails_leaves_its_error_and_ends(tmp_path):
 def test_job_for_more_ranks_than_there_are_is_refused(tmp_path):
     job_in(tmp_path, SCRIPT)
     job = json.loads((tmp_path / "job.json").read_text())
-    (tmp_path / "job.json").write_text(json.dumps([*job[:2], 2]))
+    (tmp_path / "job.json").write_text(json.dumps([*job[:2], 2, job[3]]))
     with pytest.raises(SimulationError, match=r"2 ranks were asked for, and .* a world of 1"):
         main(tmp_path)
+
+
+def test_rank_whose_job_died_before_it_began_runs_nothing(tmp_path):
+    job_in(tmp_path, SCRIPT, job=2**22 + 1)  # above what Linux gives
+    with pytest.raises(ProcessLookupError):
+        main(tmp_path)
+    assert not (tmp_path / "result.json").exists()

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from branchcrush.packings.geometry import cube, cube_edge, solid_volume, sphere_volume
+from branchcrush.packings.geometry import (
+    cube,
+    cube_edge,
+    shared_volume,
+    solid_volume,
+    sphere_volume,
+)
 
 
 def test_volume_of_a_sphere_is_that_of_its_shells():
@@ -16,6 +22,22 @@ def test_volume_of_a_sphere_is_that_of_its_shells():
 def test_grains_fill_the_sum_of_their_volumes():
     assert_allclose(solid_volume([1.0, 2.0, 3.0]), 48 * np.pi, rtol=1e-15)
     assert solid_volume([]) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("radius", "other", "overlap"), [(1.0, 1.0, 0.3), (1.0, 0.4, 0.2), (0.1, 2.0, 0.05)]
+)
+def test_lens_is_two_caps_that_meet_in_a_plane(radius, other, overlap):
+    distance = radius + other - overlap
+    plane = (distance**2 + radius**2 - other**2) / (2 * distance)
+    heights = (radius - plane, other - (distance - plane))
+    caps = [np.pi * h**2 * (3 * r - h) / 3 for h, r in zip(heights, (radius, other), strict=True)]
+    assert_allclose(shared_volume(radius, other, overlap), sum(caps), rtol=1e-12)
+
+
+def test_lens_is_nothing_at_a_touch_and_all_of_a_grain_that_is_swallowed():
+    assert shared_volume(1.0, 2.0, 0.0) == 0.0
+    assert_allclose(shared_volume(1.0, 2.0, 2.0), 4 / 3 * np.pi, rtol=1e-14)
 
 
 def test_volume_of_a_cube_is_the_same_to_the_last_bit_one_by_one_and_at_once():

@@ -84,7 +84,7 @@ def test_overlaps_are_in_per_cent_of_loaded_states(tmp_path, shown):
     ax = drawn(tmp_path, certificate.plot_overlaps, LOADING, 0.05)
     for label, percent in (("median", 1.0), ("95 % of the contacts", 2.0), ("largest", 3.0)):
         assert_allclose(shown.line(ax, label), [[0.62, 0.64, 0.66], [percent] * 3])
-    assert_allclose(shown.line(ax, "flagged from 5%")[1], 5.0)
+    assert_allclose(shown.line(ax, "noted from 5%")[1], 5.0)
 
 
 def test_dissipation_is_in_per_cent_of_the_work_by_leg(tmp_path, shown):
@@ -165,3 +165,63 @@ def test_figure_without_data_says_why(tmp_path):
     text = "no packing is certified at the end of its loading: 0 of 1 carry load there"
     ax = drawn(tmp_path, lambda ax: reason(ax, text))
     assert ax.texts[0].get_text().replace("\n", " ") == f"no data: {text}"
+
+
+def convergence_row(quantity, verdict, difference=0.0, could_see=0.02, by="pairs"):
+    return {
+        "quantity": quantity,
+        "verdict": verdict,
+        "difference": difference,
+        "could_see": could_see,
+        "tolerance": 0.1,
+        "seeds": 16 if by == "ensembles" else 4,
+        "seeds_at_twice_the_steps": 4,
+        "compared_by": by,
+    }
+
+
+def test_convergence_is_drawn_over_what_is_allowed_with_its_interval(tmp_path, shown):
+    rows = [
+        convergence_row("exponent", "not decided", 0.05, 0.15, by="ensembles"),
+        convergence_row("work_J", ""),
+        convergence_row("mean_stress_Pa", "converged", -0.03, 0.02),
+        convergence_row("jamming_solid_fraction", "not converged", 0.2, 0.05),
+    ]
+    ax = drawn(tmp_path, certificate.plot_convergence, rows)
+    places = [text.get_text() for text in ax.get_yticklabels()]
+    assert places == ["$n$ (16 against 4)", "mean stress (4 pairs)", r"$\phi_J$ (4 pairs)"]
+    points = {
+        container.get_label(): (shown.points(container[0]), shown.bars(container, "x"))
+        for container in ax.containers
+    }
+    for verdict, place, change, ends in (
+        ("not decided", 0, 0.5, [-1.0, 2.0]),
+        ("converged", 1, -0.3, [-0.5, -0.1]),
+        ("not converged", 2, 2.0, [1.5, 2.5]),
+    ):
+        point, bar = points[verdict]
+        assert_allclose(point.ravel(), [change, place])
+        assert_allclose(bar.ravel(), ends)
+    assert legend(ax) == ["allowed", "converged", "not converged", "not decided"]
+
+
+def test_one_pair_is_a_point_without_a_bar(tmp_path):
+    rows = [convergence_row("mean_stress_Pa", "not decided", 0.01, missing) for missing in (None,)]
+    ax = drawn(tmp_path, certificate.plot_convergence, rows)
+    assert legend(ax) == ["allowed", "not decided"]
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_far_changes_are_at_the_edge_and_do_not_hide_the_near_ones(tmp_path, shown, sign):
+    rows = [convergence_row("mean_stress_Pa", "not converged", sign * 50.0, 1.0)]
+    ax = drawn(tmp_path, certificate.plot_convergence, rows)
+    low, high = ax.get_xlim()
+    assert low >= -4.5 and high <= 4.5
+    (points,) = ax.containers
+    assert low <= shown.points(points[0])[0, 0] <= high
+
+
+@pytest.mark.parametrize("rows", [[], [convergence_row("work_J", "")]])
+def test_without_a_second_run_the_panel_says_so(tmp_path, rows):
+    ax = drawn(tmp_path, certificate.plot_convergence, rows)
+    assert ax.texts[0].get_text().startswith("no data: no packing certified with twice")

@@ -118,6 +118,12 @@ def test_stresses_stand_above_the_states_they_belong_to():
     assert [text.get_text() for text in top.get_xticklabels()] == ["1", "20"]
 
 
+def test_stresses_that_would_overlap_are_left_out_but_for_the_last():
+    ax = energy.plot_exponent_path(path(above=(0.01, 0.012)), fit_of())
+    (top,) = (other for other in ax.figure.axes if other is not ax)
+    assert [text.get_text() for text in top.get_xticklabels()] == ["20"]
+
+
 def test_states_without_an_exponent_are_left_out(shown):
     ax = energy.plot_exponent_path(path(exponents=(np.nan, 3.5)), fit_of())
     assert_allclose(shown.line(ax, "binned fit of all seeds"), [[0.05], [3.5]])

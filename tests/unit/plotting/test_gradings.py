@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
 
-from branchcrush.plotting.gradings import plot_grading
+from branchcrush.plotting.gradings import plot_grading, plot_preview
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -54,3 +54,30 @@ def test_the_axis_names_two_sizes_or_more_whatever_its_width(ratio):
     low, high = ax.get_xlim()
     inside = [tick for tick in ax.get_xticks() if low <= tick <= high]
     assert len(inside) >= 2
+
+
+def test_a_preview_shows_what_is_asked_for_and_drawn_by_mass_and_by_number(shown):
+    columns = table().assign(percent_finer_by_number_realised=[0.0, 75.0, 100.0])
+    ax = plot_preview(columns, "um", "seed 3")
+    for label, middle in (
+        ("by mass", 40),
+        ("by mass, seed 3", 45),
+        ("by mass, ultimate", 60),
+        ("by number", 80),
+        ("by number, seed 3", 75),
+    ):
+        assert_allclose(shown.line(ax, label), [[1000, 2000, 4000], [0, middle, 100]])
+    assert ax.get_xlabel() == "grain diameter D [µm]"
+
+
+@pytest.mark.parametrize(("unit", "label"), [("inch", "inch"), ("cm", "cm"), ("m", "mm")])
+def test_a_preview_is_in_the_unit_of_the_user(shown, unit, label):
+    ax = plot_preview(table(), unit)
+    metres = {"inch": 0.0254, "cm": 0.01, "m": 1e-3}[unit]
+    assert_allclose(shown.line(ax, "by mass")[0] * metres, [1e-3, 2e-3, 4e-3])
+    assert ax.get_xlabel() == f"grain diameter D [{label}]"
+
+
+def test_a_table_alone_is_two_curves(shown):
+    columns = ["diameter_m", "percent_finer_by_mass_target", "percent_finer_by_number_target"]
+    assert shown.texts(plot_preview(table()[columns], "mm")) == ["by mass", "by number"]

@@ -18,7 +18,7 @@ def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
         }
     )
     packing = (np.zeros((1, 3)), np.array([5e-4]), 2e-3)
-    after = {axis: np.array([0.0]) for axis in "xyz"} | {"radius": np.array([5e-4])}
+    after = pd.DataFrame({"x_m": [0.0], "y_m": [0.0], "z_m": [0.0], "radius_m": [5e-4]})
     first, last = drawn(packing_figures.draw_packing, packing, after, path, 1e-3)
     assert first.get_xlim() == last.get_xlim()
     assert "placed at random" in first.get_title() and "0.160" in first.get_title()
@@ -29,13 +29,15 @@ def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
 
 
 def test_every_panel_of_the_certificate_has_its_table(drawn, given):
-    plots = ("plot_rest", "plot_overlaps", "plot_dissipation", "plot_jamming")
+    plots = ("plot_rest", "plot_overlaps", "plot_dissipation", "plot_jamming", "plot_convergence")
     calls = given(certificate, *plots)
     limits = {"inertial_number": 1e-4}
-    drawn(packing_figures.draw_certificate, "states", "jamming", {"limits": limits})
+    verdict = {"limits": limits, "convergence": ["row"]}
+    drawn(packing_figures.draw_certificate, "states", "jamming", verdict)
     assert calls == {
         "plot_rest": ("states", limits),
         "plot_overlaps": ("states", 0.05),
         "plot_dissipation": ("states",),
         "plot_jamming": ("jamming",),
+        "plot_convergence": (["row"],),
     }

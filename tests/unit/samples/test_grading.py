@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import single
+from branchcrush.gradings.size_fits import fit_sizes
 from branchcrush.samples.grading import grading_results
 
 
@@ -34,3 +35,22 @@ def test_box_is_that_of_the_solid_fraction_at_the_end():
 def test_single_size_has_no_ultimate_grading():
     table, _ = grading_results(single(1.0), 10, 0.6, [np.ones(10)], ultimate_alpha=2.6)
     assert not [name for name in table if "ultimate" in name]
+
+
+def test_curves_through_sizes_are_reported_with_what_they_miss():
+    # ln D90 is 3 ln(1.2) above where D10 and D50 lead to: a sixth is missed at each end, a third
+    # at D50.
+    fit = fit_sizes("lognormal", {10.0: 1.0, 50.0: 2.0, 90.0: 4.0 * 1.2**3})
+    _, report = grading_results(
+        single(1.0), 2, 0.6, [np.ones(2)], ultimate_alpha=2.6, fits={"grading": fit}
+    )
+    told = report["size_fits"]["grading"]
+    assert told["curve"] == "lognormal"
+    assert told["given_m"] == {"D10": 1.0, "D50": 2.0, "D90": 4.0 * 1.2**3}
+    expected = {"D10": 1.2**-0.5, "D50": 1.2, "D90": 1.2**-0.5}
+    for name, factor in expected.items():
+        assert told["misfit_percent"][name] == pytest.approx(100 * (factor - 1), rel=1e-6)
+    assert told["root_mean_square_misfit_percent"] == pytest.approx(
+        100 * np.log(1.2) * np.sqrt(0.5), rel=1e-6
+    )
+    assert "size_fits" not in grading_results(single(1.0), 2, 0.6, [[1.0]], ultimate_alpha=2.6)[1]

@@ -6,7 +6,7 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.study.comparison import comparison_row
 
 CERTIFICATE = {
-    "verdict": "flagged",
+    "verdict": "certified with notes",
     "seeds": 4,
     "seeds_certified": 3,
     "jamming_solid_fraction": 0.63,
@@ -17,7 +17,7 @@ CERTIFICATE = {
 }
 EXPECTED = {
     "sample": "paper",
-    "verdict": "flagged",
+    "verdict": "certified with notes",
     "exponent": 3.0,
     "exponent_low": 2.9,
     "exponent_high": 3.1,

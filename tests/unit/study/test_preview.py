@@ -6,19 +6,30 @@ from dataclasses import replace
 import pytest
 
 from branchcrush.gradings.curves import ultimate_grading
-from branchcrush.gradings.forms import uniform
-from branchcrush.gradings.mixtures import single
+from branchcrush.gradings.forms import fractal, uniform
+from branchcrush.gradings.mixtures import mixture, single
 from branchcrush.gradings.tables import from_percent_finer
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import LinearContact
-from branchcrush.study.preview import Plan, preview_text, sample_plan
+from branchcrush.study.preview import sample_plan
 
 LOADING = Loading("edge_reduction", 0.4)
+# Finer than the grains of 1 mm, so that they can be crushed to it.
+TWO_SIZES = mixture([single(1e-4), single(2e-4)], [1.0, 1.0], "mass")
 
 
 def plan_of(
-    grains=1000, seeds=4, refined=0, grading=None, seconds=1e-7, ranks=1, ultimate=None, **loading
+    grains=1000,
+    seeds=4,
+    refined=1,
+    grading=None,
+    seconds=1e-7,
+    ranks=1,
+    ultimate=TWO_SIZES,
+    radii=None,
+    told=None,
+    **loading,
 ):
     sample = Sample(
         grading=grading or single(1e-3),
@@ -33,14 +44,17 @@ def plan_of(
         refined_seeds=refined,
         ranks=ranks,
     )
-    return sample_plan(sample, seconds, ultimate)
+    drawn = [1e-3] * grains if radii is None else radii
+    return sample_plan(sample, drawn, seconds, ultimate, **(told or {}))
 
 
 def test_evaluations_and_time_of_a_thousand_grains_are_those_of_their_steps_and_states():
     plan = plan_of()
     # 60 strain steps and 15 states.
     assert plan.force_evaluations == pytest.approx(60 * 70 + 15 * 2000)
-    assert plan.seconds == pytest.approx(4 * plan.force_evaluations * 1000 * 1e-7)
+    # Four seeds, one of them again with twice the strain steps.
+    assert plan.seconds == pytest.approx(6 * plan.force_evaluations * 1000 * 1e-7)
+    assert (plan.packings, plan.refined) == (5, 1)
 
 
 def test_evaluations_grow_with_the_cube_root_of_the_grains_and_time_with_both():
@@ -50,7 +64,7 @@ def test_evaluations_grow_with_the_cube_root_of_the_grains_and_time_with_both():
 
 
 def test_refined_seed_counts_twice():
-    assert plan_of(refined=2).seconds == pytest.approx(2 * plan_of().seconds)
+    assert plan_of(refined=2).seconds == pytest.approx(2 * plan_of(refined=0).seconds)
 
 
 def test_way_back_takes_the_steps_again():
@@ -63,8 +77,7 @@ def test_edges_are_those_of_the_solid_volume():
     solid = 1000 * 4 / 3 * math.pi * 1e-9
     assert plan.first_edge == pytest.approx((solid / 0.16) ** (1 / 3))
     assert plan.last_edge == pytest.approx(0.6 * plan.first_edge)
-    assert (plan.grains, plan.seeds) == (1000, 4)
-    assert (plan.smallest_diameter, plan.largest_diameter) == pytest.approx((2e-3, 2e-3))
+    assert set(plan.asked.by_mass) == {2e-3}
 
 
 def test_memory_is_a_base_and_the_contacts_of_every_state():
@@ -84,12 +97,19 @@ def test_sound_sample_has_no_warning():
 def test_few_grains_are_warned_of():
     (warning,) = plan_of(60, grading=uniform(2e-4, 1e-3)).warnings
     assert "too few for this grading" in warning
+    assert warning.endswith(
+        "-> few coarse grains carry most of the load, so seeds differ and n is less certain"
+    )
+    told = {"refused": True, "unit": ("mm", 1e-3), "size": "radius"}
+    warning, *_ = plan_of(400, grading=fractal(5e-6, 1e-3, 2.6), told=told).warnings
+    assert "with 400 grains radii 0." in warning and "to 1 mm, " in warning
+    assert warning.endswith("-> the run refuses this unless allow_unrepresentative: true")
 
 
 @pytest.mark.parametrize(("stress", "warned"), [(1e6, False), (1e8, True)])
 def test_stress_that_presses_grains_deep_is_warned_of(stress, warned):
     # An overlap of 0.00327 of the radius at 1 MPa, in proportion to the stress.
-    plan = plan_of(target="mean_stress", value=[1e5, stress])
+    plan = plan_of(target="mean_stress", value=[1e3, 1e4, 1e5, stress])
     assert [("overlaps of about 33% of the radius" in text) for text in plan.warnings] == (
         [True] if warned else []
     )
@@ -118,72 +138,44 @@ def test_the_fractal_of_a_narrow_sand_is_the_coarser_one():
     assert any("the ultimate grading is coarser" in text for text in plan.warnings)
 
 
-# --- text ----------------------------------------------------------------------------------------
+def test_sizes_are_read_off_both_curves_and_the_drawn_grains():
+    # By number uniform on 1 to 3 mm of diameter, by mass (D^4 - 1)/80.
+    plan = plan_of(grading=uniform(0.5e-3, 1.5e-3), radii=[0.5e-3, 1e-3, 1e-3, 1.5e-3])
+    assert plan.asked.by_number == pytest.approx(
+        [1e-3, 1.2e-3, 1.6e-3, 2e-3, 2.2e-3, 2.8e-3, 3e-3], rel=1e-9
+    )
+    quantiles = [1e-3 * (1 + 80 * q) ** 0.25 for q in (0, 0.1, 0.3, 0.5, 0.6, 0.9, 1)]
+    assert plan.asked.by_mass == pytest.approx(quantiles, rel=1e-9)
+    d10, d30, d60 = quantiles[1], quantiles[2], quantiles[4]
+    assert plan.asked.coefficients == pytest.approx((d60 / d10, d30**2 / d10 / d60), rel=1e-9)
+    # Volumes of 1, 8, 8 and 27 parts: 2 %, 39 % and 100 % are finer.
+    assert plan.drawn.by_mass == pytest.approx([1e-3, 2e-3, 2e-3, 3e-3, 3e-3, 3e-3, 3e-3])
+    assert plan.drawn.by_number == pytest.approx([1e-3, 1e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3])
+    assert plan.ultimate.by_mass == pytest.approx([2e-4, 2e-4, 2e-4, 2e-4, 4e-4, 4e-4, 4e-4])
+    assert plan.largest_grains == (4, 1.0)
+    assert plan.coarse_grains[1] == 1
+    # One grain of 2 mm lifts the drawn curve from 2 % to 39 %, where 19 % are asked for.
+    assert plan.gap == pytest.approx(100 * max(17 / 44 - 15 / 80, 1 - 17 / 44), rel=1e-9)
 
 
-def written(*plans, cores=2):
-    return preview_text({f"sample{k}": plan for k, plan in enumerate(plans)}, cores, "0.1")
+def test_grains_in_the_coarsest_tenth_and_the_share_of_the_largest():
+    # Each of 20 grains has a twentieth: two have a tenth, ten have half.
+    plan = plan_of(20, radii=[1e-3] * 20)
+    assert plan.coarse_grains[1] == 2
+    assert plan.largest_grains == (10, pytest.approx(0.5))
 
 
-def test_text_holds_what_a_person_asks_before_a_run():
-    text = written(plan_of()._replace(seconds=1200.0, force_evaluations=69000.0, memory=2.34e9))
-    for part in (
-        "sample0\n",
-        "1000, seeds 4",
-        "0.002 to 0.002 m",
-        "0.1 sqrt(m/k)",
-        "about 69 000 a packing",
-        "about 10.0 minutes on 2 core(s)",
-        "about 2.3 GB a job",
-    ):
-        assert part in text
-    assert "warning" not in text
+@pytest.mark.parametrize(("states", "warned"), [(1, "one saved"), (3, "3 saved"), (4, None)])
+def test_too_few_states_for_an_elastic_law_lead_to_no_theta(states, warned):
+    texts = [text for text in plan_of(states=states).warnings if "no theta" in text]
+    assert len(texts) == (warned is not None)
+    if warned:
+        assert texts[0].startswith(f"{warned} state")
 
 
-def test_text_holds_every_warning_of_every_sample():
-    plans = [
-        plan_of()._replace(warnings=["too coarse", "too deep"]),
-        plan_of()._replace(warnings=["too few"]),
-    ]
-    lines = written(*plans).splitlines()
-    found = [line.split("warning")[1].strip() for line in lines if "warning" in line]
-    assert found == ["too coarse", "too deep", "too few"]
-
-
-def test_all_samples_share_the_cores():
-    plan = plan_of()._replace(seconds=600.0)
-    assert written(plan, plan).endswith("all samples: about 10.0 minutes on 2 core(s)\n")
-
-
-def test_all_samples_take_as_long_as_all_their_packings():
-    short, long = plan_of()._replace(seconds=600.0), plan_of()._replace(seconds=3000.0)
-    # 300 and 1500 s on two cores, one after the other.
-    assert written(short, long).endswith("all samples: about 30.0 minutes on 2 core(s)\n")
-
-
-def test_one_packing_runs_on_one_core():
-    plan = plan_of(seeds=1)._replace(seconds=600.0)
-    text = written(plan, cores=8)
-    assert text.count("about 10.0 minutes on 8 core(s)") == 2
-
-
-def test_the_ranks_of_one_packing_share_the_cores():
-    plan = plan_of(seeds=1)._replace(seconds=600.0, ranks=4)
-    assert written(plan, cores=8).count("about 2.5 minutes on 8 core(s)") == 2
-
-
-def test_more_ranks_than_cores_are_warned_of():
-    plan = plan_of(seeds=1)._replace(seconds=600.0, ranks=8)
-    text = written(plan, cores=2)
-    assert "warning             ranks 8, and 2 core(s): 2 are started" in text
-    assert "about 5.0 minutes on 2 core(s)" in text
-
-
-def test_cores_that_no_packing_fits_on_stay_idle():
-    plan = plan_of(seeds=8)._replace(seconds=600.0, ranks=3)
-    assert "about 3.3 minutes on 4 core(s)" in written(plan, cores=4)
-
-
-def test_plan_is_a_row_of_plain_values():
-    assert all(isinstance(value, int | float | list) for value in plan_of())
-    assert isinstance(plan_of(), Plan)
+def test_one_size_one_seed_and_no_refined_ones_lead_to_what_is_missing():
+    one, *_ = plan_of(ultimate=None).warnings
+    assert one.startswith("one size") and "no crushing model" in one
+    texts = plan_of(seeds=1, refined=0).warnings
+    assert texts[0] == "one seed -> no interval of n"
+    assert texts[1].startswith("no refined seeds -> the certificate")

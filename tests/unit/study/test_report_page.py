@@ -38,7 +38,7 @@ STANDING = {
 CERTIFICATE = {
     "verdict": "certified",
     "reasons": [],
-    "flags": [],
+    "notes": [],
     "seeds": 4,
     "seeds_certified": 4,
     "states": 68,
@@ -225,11 +225,15 @@ def test_page_tells_the_basis_and_the_loading_it_was_given(page):
     assert "and back." in html
 
 
-def test_page_lists_reasons_and_flags_as_they_are(page):
-    certificate = {"verdict": "flagged", "reasons": ["a < b"], "flags": ["overlaps", "few grains"]}
-    html = page({"certificate": certificate})
+def test_page_lists_reasons_and_notes_as_they_are(page):
+    note = {"finding": "overlaps > 5 %", "effect": "n +0.01", "advice": "load less"}
+    few = {**note, "finding": "few grains"}
+    html = page({"certificate": {"verdict": "x", "reasons": ["a < b"], "notes": [note, few]}})
     assert "<li>a &lt; b</li>" in html
-    assert "<li>overlaps</li><li>few grains</li>" in html
+    assert (
+        "<li>overlaps &gt; 5 %.<br>Likely effect: n +0.01.<br>What to do: load less.</li>" in html
+    )
+    assert "<li>few grains.<br>" in html
 
 
 def test_page_compares_both_runs_where_the_exponent_is_missing(page):
@@ -239,13 +243,18 @@ def test_page_compares_both_runs_where_the_exponent_is_missing(page):
         "value": None,
         "value_at_twice_the_steps": None,
         "difference": None,
-        "standard_error_of_difference": None,
+        "seeds_at_twice_the_steps": 2,
+        "compared_by": "ensembles",
+        "could_see": None,
+        "tolerance": 0.1,
+        "verdict": "",
     }
     stress = {**exponent, "quantity": "mean_stress_Pa", "value": 1e6, "difference": 1234.5}
+    stress |= {"compared_by": "pairs", "could_see": 5e4, "verdict": "converged"}
     html = page({"certificate": {"convergence": [exponent, stress]}})
-    assert "with twice the strain steps, 1 seed<" in html
-    assert "<td>exponent</td><td>none</td>" in html
-    assert "<td>mean_stress_Pa</td><td>1e+06</td>" in html
+    assert "<td>exponent</td><td>1 against 2</td> <td>none</td>" in html
+    assert "<td>mean_stress_Pa</td><td>1 pair</td> <td>1e+06</td>" in html
+    assert "<td>5e+04</td><td>0.1</td><td>converged</td>" in html
 
 
 def test_page_tells_of_the_way_back(page):

@@ -7,7 +7,7 @@ from branchcrush.study.summary import summary
 
 ROW = {
     "sample": "paper",
-    "verdict": "flagged",
+    "verdict": "certified with notes",
     "exponent": 3.111,
     "exponent_low": 2.99,
     "exponent_high": 3.24,
@@ -31,19 +31,21 @@ def written(tmp_path):
 
 def test_sample_has_its_verdict_exponent_interval_and_the_seeds_behind_it(written):
     assert written(ROW)[0] == (
-        "paper: flagged, n = 3.11 (2.99 to 3.24), 95% interval of 15 seeds, at solid fraction 0.741"
+        "paper: certified with notes, n = 3.11, with 95 % confidence between 2.99 and 3.24 "
+        "(15 packings), at solid fraction 0.741"
     )
 
 
 def test_one_seed_has_no_interval(written):
     line = written({**ROW, "exponent_low": None, "exponent_high": None, "seeds_certified": 1})[0]
-    assert line == "paper: flagged, n = 3.11 (one seed: no interval), at solid fraction 0.741"
+    told = "n = 3.11 (one packing: no interval), at solid fraction 0.741"
+    assert line == f"paper: certified with notes, {told}"
 
 
 def test_sample_without_data_says_why(written):
     loose = {**ROW, **EMPTY, "sample": "loose", "verdict": "not certified", "reason": "no load"}
     lines = written(ROW, loose)
-    assert lines[0].startswith("paper: flagged, n = 3.11 ")
+    assert lines[0].startswith("paper: certified with notes, n = 3.11, ")
     assert lines[1] == "loose: not certified, no exponent: no load"
 
 
@@ -56,4 +58,13 @@ def test_report_and_figures_are_named(written, tmp_path):
         f"report:   {tmp_path / 'report.html'}",
         f"findings: {tmp_path / 'findings.html'}",
         f"figures:  {tmp_path / 'figures'}",
+    ]
+
+
+def test_folder_is_named_as_its_reader_sees_it(tmp_path):
+    write_table(tmp_path / "comparison.csv", [ROW], provenance())
+    assert summary(tmp_path, shown_as="sand/results").splitlines()[1:] == [
+        "report:   sand/results/report.html",
+        "findings: sand/results/findings.html",
+        "figures:  sand/results/figures",
     ]

@@ -1,0 +1,68 @@
+"""`branchcrush check`: what is wrong with a configuration, all of it at once."""
+
+import os
+import sys
+from pathlib import Path
+
+from branchcrush.config.checks import checked_study
+from branchcrush.config.file import config_file_content
+from branchcrush.config.schema import Config
+from branchcrush.errors import ConfigError
+
+
+def study_of(place: str, *, few_grains: bool = False) -> Config | None:
+    """Return the configuration of a folder or a file, or print what is wrong with it.
+
+    Names of files in it are relative to that folder, which becomes the working one.
+
+    Parameters
+    ----------
+    place : str
+        A folder with a config.yaml, or a configuration file.
+    few_grains : bool
+        As for `config.checks.checked_study`.
+
+    Returns
+    -------
+    Config or None
+
+    Raises
+    ------
+    FileNotFoundError
+        When there is neither.
+    """
+    path = Path(place)
+    file = path / "config.yaml" if path.is_dir() else path
+    if not file.is_file():
+        raise FileNotFoundError(f"there is no file {file}: name a folder with a config.yaml")
+    os.chdir(file.parent)
+    try:
+        return checked_study(config_file_content(file.name), few_grains=few_grains)
+    except ConfigError as error:
+        print(error, file=sys.stderr)
+        return None
+
+
+def check(place: str) -> int:
+    """Print what is wrong with a configuration, or what it holds if nothing is.
+
+    Parameters
+    ----------
+    place : str
+        As for `study_of`.
+
+    Returns
+    -------
+    int
+        1 if there is a problem, else 0.
+    """
+    study = study_of(place)
+    if study is None:
+        return 1
+    for name, sample in study.samples.items():
+        grains = (
+            "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
+        )
+        print(f"{name}: {sample.grading.form}, {grains}, {len(sample.seeds)} packings")
+    print("sound: snakemake --cores 2 runs it, branchcrush preview tells what it will be")
+    return 0

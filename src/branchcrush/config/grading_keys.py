@@ -1,0 +1,42 @@
+"""Keys that several forms of a grading have, with what each means."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from branchcrush.config.fields import Allowed, number, refusal
+from branchcrush.config.units import UNITS
+
+# Of a grain [m]. Outside of them it is the unit that is wrong.
+_SMALLEST, _LARGEST = 1e-9, 1e3
+
+
+def _possible(size, info):
+    unit = info.data.get("unit")
+    if unit and not _SMALLEST <= size * UNITS[unit] <= _LARGEST:
+        raise refusal(
+            f"must be from {_SMALLEST:g} m to {_LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
+            "check it and the unit",
+            unit=unit,
+        )
+    return size
+
+
+Length = number(above=0, unit_of="unit")
+Size = Annotated[Length, AfterValidator(_possible)]
+_FORM_TELLS = Field(description="What the form tells of: the number of grains, or their mass.")
+WEIGHTS_ARE = Field(description="What the weights are of: the number of grains, or their mass.")
+SIZES_ARE = Field(description="What sizes are: of a grain its radius or its diameter.")
+Basis = Annotated[Literal["number", "mass"], _FORM_TELLS]
+BasisOfFile = Annotated[Literal["number", "mass", "volume"], _FORM_TELLS]
+OfNumber = Annotated[Literal["number"], _FORM_TELLS]
+OfMass = Annotated[Literal["mass"], _FORM_TELLS]
+FileName = Annotated[
+    str,
+    Allowed("must be the name of a file"),
+    Field(
+        min_length=1,
+        description="Name of the file, relative to the folder that the study runs in.",
+        examples=["sand.csv"],
+    ),
+]

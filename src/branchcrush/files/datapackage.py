@@ -1,0 +1,116 @@
+"""The description of a study's results for programs: a Data Package, `datapackage.json`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from branchcrush.files.dictionary import ResultFile, result_files
+
+_PROFILE = "https://datapackage.org/profiles/2.0/datapackage.json"
+# By the end of the name: Data Packages' format, media type, and whether it is a table.
+_KINDS = {
+    ".csv": ("csv", "text/csv", True),
+    ".parquet": ("parquet", "application/vnd.apache.parquet", True),
+    ".json": ("json", "application/json", False),
+    ".html": ("html", "text/html", False),
+    ".png": ("png", "image/png", False),
+    ".npz": ("npz", "application/x-npz", False),
+    ".data": ("data", "text/plain", False),
+}
+# The first line of a table says what made it. Some readers count it, others know the sign.
+_DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
+# What a study makes only when it is asked for, what it notes of its own work, the description
+# itself, and LAMMPS's dumps.
+_LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage.json")
+_DUMP = ".dump.gz"
+# Of the seeds that are run again there is no more.
+_RUN_AGAIN = ("compression", "certificate")
+
+
+def data_package(
+    samples: Mapping[str, Sequence[int]],
+    run_again: Mapping[str, Sequence[int]],
+) -> dict[str, Any]:
+    """Return the description of all files of a study, with every column's type, unit and meaning.
+
+    LAMMPS's dumps are left out: which are there is up to `keep_dumps` and to who deletes them.
+
+    Parameters
+    ----------
+    samples : mapping
+        Seeds by name of the sample.
+    run_again : mapping
+        Seeds by name of what is run again with smaller strain steps; of these there are the
+        packings and their certificates alone.
+
+    Returns
+    -------
+    dict
+        By version 2 of the Data Package standard: `resources` with path and, of a table, a schema
+        whose fields have name, type, unit and description; of other files such fields are under
+        `keys`.
+
+    Examples
+    --------
+    >>> package = data_package({"sand": [1, 2]}, {})
+    >>> paths = [resource["path"] for resource in package["resources"]]
+    >>> [path for path in paths if path.endswith("path.csv")][:2]
+    ['sand/seed_1/path.csv', 'sand/seed_2/path.csv']
+
+    References
+    ----------
+    https://datapackage.org/standard/data-package/
+    """
+    resources = []
+    for file in result_files():
+        if file.rule in _LEFT_OUT or file.path in _LEFT_OUT or file.path.endswith(_DUMP):
+            continue
+        everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
+        resources += [_resource(file, path) for path in _paths(file.path, everything)]
+    return {
+        "$schema": _PROFILE,
+        "name": "branchcrush-results",
+        "title": "Results of a branchcrush study",
+        "description": "Energy of branches and crushing of loaded grain assemblies. SI units.",
+        "resources": resources,
+    }
+
+
+def _paths(path: str, samples: Mapping[str, Sequence[int]]) -> Iterator[str]:
+    """Yield the files of one kind that a study has."""
+    if "<sample>" not in path:
+        yield path
+        return
+    for sample, seeds in samples.items():
+        of_sample = path.replace("<sample>", sample)
+        if "<seed>" in path:
+            yield from (of_sample.replace("<seed>", str(seed)) for seed in seeds)
+        else:
+            yield of_sample
+
+
+def _resource(file: ResultFile, path: str) -> dict[str, Any]:
+    form, media_type, is_table = next(
+        kind for ending, kind in _KINDS.items() if path.endswith(ending)
+    )
+    resource: dict[str, Any] = {
+        # Unique as the path is, so capitals stay.
+        "name": path.replace("/", "."),
+        "path": path,
+        "description": file.holds,
+        "format": form,
+        "mediatype": media_type,
+        "rule": file.rule,
+    }
+    fields = [
+        {"name": name, "type": kind, **({"unit": unit} if unit else {}), "description": meaning}
+        for name, kind, unit, meaning in file.columns()
+    ]
+    if is_table:
+        resource["type"] = "table"
+        if form == "csv":
+            resource |= {"encoding": "utf-8", "dialect": _DIALECT}
+        match = {"fieldsMatch": "superset"} if file.rare or file.partial else {}
+        resource["schema"] = {"fields": fields, **match}
+    elif fields:
+        resource["keys"] = fields
+    return resource

@@ -1,0 +1,275 @@
+"""What made the results of a job, written beside them, and whether they still fit what is there."""
+
+import contextlib
+import json
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from branchcrush import __version__
+from branchcrush.files.digests import Digests, digests_of
+from branchcrush.files.replacing import replacing
+from branchcrush.jobs import job
+
+# Params of a rule that do not decide what its results hold: where its sources lie (the digest in
+# `code` tells what is in them), and which dumps are kept.
+_NOT_COMPARED = ("code", "inputs", "template", "keep_dumps")
+_MOST_NAMED = 3
+# From the least.
+KEPT_DUMPS = ("none", "last", "all")
+
+
+@contextlib.contextmanager
+def recorded_job(snakemake: Any) -> Iterator[list[str]]:
+    """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
+
+    Parameters
+    ----------
+    snakemake : object
+        What Snakemake gives a script; `output.record` is where the record goes.
+
+    Yields
+    ------
+    list of str
+        For paths of files that the job writes besides its outputs, and that may be deleted.
+    """
+    with job(snakemake.log[0]):
+        beside: list[str] = []
+        digests = Digests(snakemake.rule)
+        # Before the job reads them: one that is edited meanwhile is another one the next time.
+        inputs = digests_of(map(str, snakemake.input), digests)
+        yield beside
+        record = _made_with(snakemake, snakemake.rule)
+        record["inputs"] = inputs
+        record["outputs"] = digests_of(_results(snakemake), digests)
+        record["beside"] = digests_of(beside, digests)
+        digests.note()
+        with replacing(snakemake.output.record) as file:
+            file.write((json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
+
+
+def _made_with(made: Any, rule: str) -> dict[str, Any]:
+    """Return what a job is made with, of a job of Snakemake or of what it gives a script."""
+    params = dict(made.params.items())
+    return {
+        "branchcrush": __version__,
+        "rule": rule,
+        "wildcards": dict(made.wildcards.items()),
+        "code": params["code"],
+        "keep_dumps": params.get("keep_dumps"),
+        "params": {name: params[name] for name in params if name not in _NOT_COMPARED},
+    }
+
+
+def _results(made):
+    """Return the paths of a job's outputs but for its record."""
+    return [str(path) for path in made.output if path != made.output.record]
+
+
+def read_record(path: str | os.PathLike[str]) -> dict[str, Any] | None:
+    """Return a record that `recorded_job` wrote, {} of a damaged one, None where there is none.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    dict or None
+        branchcrush: the version; rule, wildcards: of the job; code: digest of the sources that its
+        script runs; params: the configuration that it used; inputs, outputs, beside: SHA-256 of
+        each file by its path, from the folder that the study ran in.
+
+    Examples
+    --------
+    >>> read_record("results/nothing/made/of.json") is None
+    True
+    """
+    try:
+        record = json.loads(Path(path).read_bytes())
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError):
+        return {}
+    kinds = {"code": str, "params": dict, "inputs": dict, "outputs": dict}
+    whole = isinstance(record, dict) and all(
+        isinstance(record.get(key), kind) for key, kind in kinds.items()
+    )
+    return record if whole else {}
+
+
+class OutOfDate(NamedTuple):
+    """Why a job has to be done again."""
+
+    job: Any
+    reason: str
+
+
+def out_of_date(jobs: Iterable[Any]) -> list[OutOfDate]:
+    """Return which jobs do not fit what is there now, and why: by content, not by times and paths.
+
+    A job fits when its record tells of the same code, configuration and inputs, and its outputs
+    are there as it left them. A job of which nothing is there was not done yet, and is no case.
+
+    Parameters
+    ----------
+    jobs : iterable
+        Of Snakemake, or like them: rule.name, wildcards, params, input and output. Those without
+        an output `record` are passed over.
+
+    Returns
+    -------
+    list of OutOfDate
+    """
+    digests = Digests("checked")
+    found = [
+        OutOfDate(each, reason)
+        for each in jobs
+        if "record" in each.output.keys()  # noqa: SIM118 (a Namedlist is a list)
+        if (reason := _reason(each, digests))
+    ]
+    digests.note()
+    return found
+
+
+def _reason(made, digests):
+    """Return why a job has to be done again, in words, or "" where it fits."""
+    record, results = read_record(made.output.record), _results(made)
+    missing = [path for path in results if not os.path.exists(path)]
+    if record is None:
+        return "" if len(missing) == len(results) else "no record tells what made its files"
+    if not record:
+        return "its record is damaged"
+    if missing:
+        return f"its file {_name(missing[0])} is missing"
+    now = _made_with(made, made.rule.name)
+    if now["code"] != record["code"]:
+        return "its code changed"
+    if _as_text(now["params"]) != _as_text(record["params"]):
+        return _changed_keys(record["params"], json.loads(_as_text(now["params"])))
+    return _changed_inputs(record["inputs"], digests_of(map(str, made.input), digests)) or next(
+        (
+            f"its file {_name(path)} is not as it was left"
+            for path in results
+            if digests.of(path) != record["outputs"].get(path)
+        ),
+        "",
+    )
+
+
+def _as_text(params):
+    """Return params as JSON; keys keep their order, since samples are listed in it."""
+    return json.dumps(params)
+
+
+def _changed_keys(before, now):
+    """Return in words which keys of the configuration changed."""
+    keys = list(dict.fromkeys(key.removeprefix("sample.") for key in _differences(before, now)))
+    more = f" and {len(keys) - _MOST_NAMED} more" if len(keys) > _MOST_NAMED else ""
+    return f"{', '.join(keys[:_MOST_NAMED]) or 'the order of its keys'}{more} changed"
+
+
+def _differences(before, now, key=""):
+    """Yield the dotted keys at which two values differ."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        for name in dict.fromkeys([*before, *now]):
+            below = f"{key}.{name}" if key else name
+            if name in before and name in now:
+                yield from _differences(before[name], now[name], below)
+            else:
+                yield below
+    elif _as_text(before) != _as_text(now):
+        yield key
+
+
+def _changed_inputs(before, now):
+    """Return in words what changed of a job's inputs, or ""."""
+    for path, digest in now.items():
+        if not digest:
+            return f"its input {_name(path)} is missing"
+        if path not in before:
+            return f"its input {_name(path)} is new"
+        if digest != before[path]:
+            return f"its input {_name(path)} changed"
+    if list(before) != list(now):
+        gone = next((path for path in before if path not in now), None)
+        return f"its input {_name(gone)} is no longer one" if gone else "its inputs changed places"
+    return ""
+
+
+def _name(path):
+    return os.path.basename(path)
+
+
+def lines_of(cases: Iterable[OutOfDate]) -> list[str]:
+    """Return what is made anew, a line for each reason.
+
+    Parameters
+    ----------
+    cases : iterable of OutOfDate
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace as Namespace
+    >>> fit = Namespace(rule=Namespace(name="fit"), wildcards={"sample": "paper"})
+    >>> lines_of([OutOfDate(fit, "its code changed")])
+    ['made anew: fit of paper, because its code changed']
+    """
+    grouped: dict[str, dict[str, int]] = {}
+    for case in cases:
+        wildcards = dict(case.job.wildcards.items())
+        what = case.job.rule.name
+        if "sample" in wildcards:
+            what += f" of {wildcards['sample']}"
+        names = grouped.setdefault(case.reason, {})
+        names[what] = names.get(what, 0) + ("seed" in wildcards)
+    return [
+        f"made anew: {_listed(_counted(names))}, because {reason}"
+        for reason, names in grouped.items()
+    ]
+
+
+def _counted(names: Mapping[str, int]) -> list[str]:
+    """Return names with the number of packings that each stands for."""
+    return [
+        f"{name} ({number} packing{'s' * (number > 1)})" if number else name
+        for name, number in names.items()
+    ]
+
+
+def _listed(names):
+    """Return the first of some names, and how many more there are."""
+    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    return ", ".join(names[:_MOST_NAMED]) + more
+
+
+def dumps_not_kept(jobs: Iterable[Any]) -> str:
+    """Return what to do where dumps are asked for that earlier runs did not keep, or "".
+
+    Parameters
+    ----------
+    jobs : iterable
+        As for `out_of_date`, of those that will not be done.
+
+    Returns
+    -------
+    str
+    """
+    short = []
+    for each in jobs:
+        wanted = dict(each.params.items()).get("keep_dumps")
+        kept = (read_record(each.output.record) or {}).get("keep_dumps") if wanted else None
+        if kept in KEPT_DUMPS and KEPT_DUMPS.index(kept) < KEPT_DUMPS.index(wanted):
+            short.append((each.rule.name, wanted))
+    if not short:
+        return ""
+    number, (rule, wanted) = len(short), short[0]
+    return (
+        f"keep_dumps: {wanted} holds for packings that are still to be compressed; {number} "
+        f"packing{'s' * (number > 1)} kept less. To have their dumps: --forcerun {rule}"
+    )

@@ -1,0 +1,247 @@
+"""One run of the workflow in a folder at a time, and jobs that end with the run that began them.
+
+A run holds `.branchcrush/run.lock`, and each of its jobs `.branchcrush/jobs.lock`. The kernel lets
+both go when their holder dies, whichever way, so that no lock stays behind.
+"""
+
+import contextlib
+import errno
+import fcntl
+import json
+import os
+import shlex
+import signal
+import sys
+import tempfile
+import threading
+import time
+import uuid
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+
+from branchcrush.errors import RunError
+from branchcrush.files.scratch import remove_dead, remove_leavings
+
+_FOLDER = ".branchcrush"
+# Tells jobs which run they belong to.
+_VARIABLE = "BRANCHCRUSH_RUN"
+# How often a job looks whether its run lives, and how long a run waits for jobs of a dead one [s].
+_LOOK, _PATIENCE = 0.25, 20.0
+# A file system that has no locks.
+_NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
+
+
+@contextlib.contextmanager
+def one_run() -> Iterator[None]:
+    """Have the working folder for one run, and clear away what dead runs left in it.
+
+    Jobs that begin meanwhile and call `join_run` end when this process does, and at Ctrl-C.
+
+    Raises
+    ------
+    RunError
+        When another run has the folder, or jobs of an earlier one are still at work in it.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
+    ...     with one_run():
+    ...         pass
+    Traceback (most recent call last):
+    branchcrush.errors.RunError: another run has this folder since ...
+    """
+    folder = Path(_FOLDER).resolve()
+    with _held(folder / "run.lock") as lock:
+        run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {_start_of(os.getpid())}"
+        _write(lock, {"run": run, **_holder()})
+        _wait_for_jobs(folder / "jobs.lock")
+        remove_leavings("results")
+        remove_dead(tempfile.gettempdir(), "branchcrush-")
+        os.environ[_VARIABLE] = run
+        try:
+            with _interrupt_ends_jobs(lock):
+                yield
+        finally:
+            os.environ.pop(_VARIABLE, None)
+
+
+def belongs_to_run() -> bool:
+    """Return whether a run began this process."""
+    return _VARIABLE in os.environ
+
+
+def join_run() -> None:
+    """Let this process, a job, end when the run that began it ends, whichever way.
+
+    Does nothing where no run began it.
+    """
+    run = os.environ.get(_VARIABLE)
+    if run is None:
+        return
+    folder = Path(_FOLDER).resolve()
+    # Held until this process ends: no other run begins before.
+    _locked(folder / "jobs.lock", fcntl.LOCK_SH, wait=True)
+    if not _lives(run, folder / "run.lock"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    watch = threading.Thread(target=_end_with, args=(run, folder / "run.lock"), daemon=True)
+    watch.start()
+
+
+@contextlib.contextmanager
+def _held(path):
+    """Hold the lock of a run, or refuse and name who does."""
+    with _folder_errors():
+        path.parent.mkdir(exist_ok=True)
+        lock, free = _locked(path, fcntl.LOCK_EX)
+    try:
+        if not free:
+            raise RunError(_who_has_it(path))
+        try:
+            yield lock
+        finally:
+            os.truncate(lock, 0)
+    finally:
+        os.close(lock)
+
+
+@contextlib.contextmanager
+def _folder_errors():
+    """Turn what the system refuses into one sentence."""
+    try:
+        yield
+    except OSError as error:
+        raise RunError(
+            f"this folder cannot be locked for a run: {error.filename or _FOLDER}: {error.strerror}"
+        ) from None
+
+
+def _end_with(run, lock):
+    """Kill this process when its run has ended."""
+    while _lives(run, lock):
+        time.sleep(_LOOK)
+    # LAMMPS listens to nothing else, and what is left unfinished is known as such.
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _lives(run, lock):
+    """Return whether a run has not ended yet."""
+    _, machine, process, start = run.split(" ")
+    if machine == _machine() and start != _start_of(process):
+        return False
+    try:
+        text = lock.read_text(encoding="utf-8")
+    except OSError:  # removed by hand, which ends no run
+        return True
+    # It is emptied at Ctrl-C, and another run writes itself into it.
+    return run in text
+
+
+def _locked(path, kind, wait=False):
+    """Return a file that is open for as long as this process lives, and whether the lock is had."""
+    while True:
+        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(file, kind | (0 if wait else fcntl.LOCK_NB))
+        except OSError as error:
+            if error.errno in _NO_LOCKS:
+                sys.stderr.write(
+                    f"branchcrush: {path} is on a file system without locks, so nothing keeps two "
+                    "runs in this folder apart\n"
+                )
+                return file, True
+            if error.errno not in (errno.EWOULDBLOCK, errno.EACCES):
+                raise
+            return file, False
+        # Somebody may have removed it meanwhile, and another locked its successor.
+        with contextlib.suppress(FileNotFoundError):
+            if os.path.samestat(os.fstat(file), os.stat(path)):
+                return file, True
+        os.close(file)
+
+
+def _wait_for_jobs(path):
+    """Wait until no job of an earlier run is at work: each looks often whether its run lives."""
+    end = time.monotonic() + _PATIENCE
+    while True:
+        with _folder_errors():
+            lock, free = _locked(path, fcntl.LOCK_EX)
+            os.close(lock)
+        if free:
+            return
+        if time.monotonic() > end:
+            raise RunError(
+                "jobs of an earlier run are still at work in this folder, perhaps on another "
+                "machine: end them, then repeat the command"
+            )
+        time.sleep(_LOOK / 2)
+
+
+def _who_has_it(lock):
+    """Return one sentence about the run that has the folder."""
+    try:
+        holder = json.loads(lock.read_text(encoding="utf-8"))
+        return (
+            f"another run has this folder since {holder['start']}: process {holder['process']} on "
+            f"{holder['host']}, `{holder['command']}`; wait until it has ended, or end it"
+        )
+    except (OSError, ValueError, KeyError):  # it is about to write who it is, or to end
+        return "another run has this folder: wait until it has ended, or end it"
+
+
+def _holder():
+    program, *arguments = sys.argv
+    name = Path(program).parent.name if program.endswith("__main__.py") else Path(program).name
+    return {
+        "process": os.getpid(),
+        "host": os.uname().nodename,
+        "command": shlex.join([name, *arguments]),
+        "start": datetime.now().astimezone().isoformat(sep=" ", timespec="seconds"),
+    }
+
+
+def _write(file, content):
+    os.truncate(file, 0)
+    os.pwrite(file, (json.dumps(content) + "\n").encode(), 0)
+
+
+@contextlib.contextmanager
+def _interrupt_ends_jobs(lock):
+    """Let Ctrl-C end the jobs too, also where only this process is told of it."""
+    if (
+        threading.current_thread() is not threading.main_thread()
+        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+    ):
+        yield
+        return
+
+    def interrupted(number, frame):
+        os.truncate(lock, 0)
+        signal.default_int_handler(number, frame)
+
+    signal.signal(signal.SIGINT, interrupted)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _machine():
+    """Return what tells apart where the number of a process means something; nothing if unknown."""
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+        return f"{boot}/{os.readlink('/proc/self/ns/pid')}"
+    except OSError:
+        return "unknown"
+
+
+def _start_of(process):
+    """Return when a process was started, in the kernel's ticks; "none" where none runs."""
+    try:
+        text = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return "none"
+    # Behind the name, which may hold anything; one that is dead and was not looked after is Z.
+    state, *fields = text.rpartition(")")[2].split()
+    return "none" if state in "ZX" else fields[18]

@@ -1,0 +1,247 @@
+"""The preview of a study as text for a person: a block of lines for each sample, and the time."""
+
+import math
+import textwrap
+from collections.abc import Mapping, Sequence
+
+from branchcrush.study.preview import PERCENTS, Plan
+
+# Of this machine, measured on two cores [s]: Snakemake's own start, the imports of each job, and
+# the figures of a sample.
+START, JOB, FIGURES = 3.0, 1.2, 7.0
+# Jobs of a sample besides its packings: grading, certificate, branch_lengths, energy_split,
+# sharing, thermodynamics, verdict, fit_figures, packing_figures; one more of refined packings.
+_JOBS = 9
+# Jobs of all samples together: comparison, findings and the two pages.
+_JOBS_OF_ALL = 4
+_WIDTH, _LABEL = 96, 15
+_HEADS = ["min", *(f"D{percent}" for percent in PERCENTS[1:-1]), "max"]
+
+
+def preview_text(
+    plans: Mapping[str, Plan], cores: int, pictures: Mapping[str, str], notes: Mapping[str, str]
+) -> str:
+    """Return the plans of all samples as text for a person.
+
+    Parameters
+    ----------
+    plans : dict of Plan
+        By sample.
+    cores : int
+        That will be used.
+    pictures : dict of str
+        The file with the picture of each sample.
+    notes : dict of str
+        Why the time of a sample is not known, where it is not.
+
+    Returns
+    -------
+    str
+    """
+    lines, longest, total = [], 0.0, 0.0
+    for name, plan in plans.items():
+        seconds = compression_seconds(plan, cores)
+        lines += [
+            f"{name}: {plan.sample.grains} grains, {_packings(plan)}, "
+            f"{'periodic cell' if plan.sample.periodic else 'six rigid walls'}",
+            *_sizes(plan),
+            *_line("coarse grains", _coarse(plan)),
+            *(line for fit in _fits(plan) for line in _line("curve", fit)),
+            *_line("box", _box(plan)),
+            *_line("loading", _loading(plan)),
+            *_line("time", _time(plan, seconds, cores, notes.get(name))),
+            *_line("memory", f"about {plan.memory / 1e9:.1f} GB a job"),
+            *_line("picture", pictures[name]),
+            *(line for text in _warnings(plan, cores) for line in _line("warning", text)),
+            "",
+        ]
+        longest = max(longest, seconds)
+        total += plan.seconds + fixed_seconds(plan)
+    # A sample of few packings may leave cores idle, and be the last to end.
+    whole = START + _JOBS_OF_ALL * JOB + max(longest, total / cores)
+    about = "not known" if math.isnan(total) else f"about {duration(whole)}, half or twice as long"
+    lines.append(f"all samples together: {about}, on {cores} core{'s' * (cores != 1)}")
+    return "\n".join(lines) + "\n"
+
+
+def compression_seconds(plan: Plan, cores: int) -> float:
+    """Return how long the packings of a sample take, if they have the machine to themselves.
+
+    Parameters
+    ----------
+    plan : Plan
+    cores : int
+
+    Returns
+    -------
+    float
+        [s]
+    """
+    # Ranks of a packing keep as many cores busy, as many packings at a time as fit.
+    ranks = min(plan.sample.ranks, cores)
+    return plan.seconds / min(cores // ranks * ranks, len(plan.sample.seeds) * ranks)
+
+
+def fixed_seconds(plan: Plan) -> float:
+    """Return what a sample takes besides LAMMPS: the imports of its jobs, and its figures.
+
+    Parameters
+    ----------
+    plan : Plan
+
+    Returns
+    -------
+    float
+        On one core [s].
+    """
+    return JOB * (plan.packings + _JOBS + (plan.refined > 0)) + FIGURES
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that a person would take.
+
+    Parameters
+    ----------
+    seconds : float
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> duration(31.4), duration(250.0), duration(20_000.0)
+    ('31 s', '4 min', '5.6 h')
+    """
+    if seconds < 99.5:
+        return f"{seconds:.0f} s" if seconds >= 1.0 else "less than 1 s"
+    if seconds < 99.5 * 60.0:
+        return f"{seconds / 60.0:.0f} min"
+    return f"{seconds / 3600.0:.1f} h"
+
+
+def _line(label: str, text: str) -> list[str]:
+    """Return a text behind its label, over as many lines as it takes."""
+    indent = " " * (_LABEL + 2)
+    return textwrap.wrap(
+        text,
+        _WIDTH,
+        initial_indent=f"  {label:{_LABEL}}",
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def _packings(plan: Plan) -> str:
+    seeds = len(plan.sample.seeds)
+    again = f", {plan.refined} of them again with twice the strain steps" if plan.refined else ""
+    return f"{seeds} packing{'s' * (seeds != 1)}{again}"
+
+
+def _sizes(plan: Plan) -> list[str]:
+    """Return the table of diameters, in the unit that the user gave."""
+    unit, metres = plan.unit
+    rows = [("by mass", plan.asked.by_mass), ("  drawn", plan.drawn.by_mass)]
+    rows += [("  ultimate", plan.ultimate.by_mass)] if plan.ultimate else []
+    rows += [("by number", plan.asked.by_number), ("  drawn", plan.drawn.by_number)]
+    rows += [("  ultimate", plan.ultimate.by_number)] if plan.ultimate else []
+    head = f"  {f'diameters [{unit}]':{_LABEL}}" + "".join(f"{name:>9}" for name in _HEADS)
+    lines = [head]
+    for label, sizes in rows:
+        cells = "".join(f"{_number(size / metres):>9}" for size in sizes)
+        lines.append(f"  {label:{_LABEL}}{cells}")
+    coefficients = {"": plan.asked, "drawn ": plan.drawn, "ultimate ": plan.ultimate}
+    words = "; ".join(
+        f"{label}{', '.join(_number(value) for value in sizes.coefficients)}"
+        for label, sizes in coefficients.items()
+        if sizes is not None
+    )
+    return [*lines, *_line("C_u, C_c", words)]
+
+
+def _number(value: float) -> str:
+    """Return a number to three digits, without a power of ten where it is none of many zeros."""
+    shown = f"{value:.3g}"
+    return f"{float(shown):.0f}" if "e+" in shown and value < 1e6 else shown
+
+
+def _coarse(plan: Plan) -> str:
+    expected, drawn = plan.coarse_grains
+    number, share = plan.largest_grains
+    apart = (
+        f"are at most {plan.gap:.2g} % apart"
+        if plan.gap > 0.01
+        else "coincide to a hundredth of a %"
+    )
+    return (
+        f"{expected:.3g} expected in the coarsest 10 % of the mass, {drawn} drawn; the {number} "
+        f"largest drawn have {100.0 * share:.3g} % of the mass; drawn and asked sieve curve {apart}"
+    )
+
+
+def _fits(plan: Plan) -> list[str]:
+    """Return each curve through a few sizes, with what it misses."""
+    parts = {key: "" if key == "grading" else f"{key}: " for key in plan.fits}
+    return [f"{parts[key]}{fit.words(*plan.unit)}" for key, fit in plan.fits.items()]
+
+
+def _box(plan: Plan) -> str:
+    unit, metres = plan.unit
+    largest = plan.last_edge / plan.asked.by_mass[-1]
+    return (
+        f"edge {_number(plan.first_edge / metres)} {unit}, at the end about "
+        f"{_number(plan.last_edge / metres)} {unit} ({largest:.3g} largest diameters)"
+    )
+
+
+def _loading(plan: Plan) -> str:
+    sample, loading = plan.sample, plan.sample.loading
+    stresses = loading.stresses
+    back = ", and back through the same" if loading.unloading else ""
+    if not stresses:
+        return (
+            f"{loading.target} {loading.value:g}, solid fraction "
+            f"{sample.initial_solid_fraction:g} to {sample.end:.3f}; {_states(loading.states)} "
+            f"from {loading.approach_solid_fraction:g} on{back}"
+        )
+    return (
+        f"{_states(len(stresses))} at mean stress {_stresses(stresses)}{back}; overlaps at the "
+        f"last about {100.0 * plan.overlap:.2g} % of the radius"
+    )
+
+
+def _states(number: int) -> str:
+    return f"{number} saved state{'s' * (number != 1)}"
+
+
+def _stresses(stresses: Sequence[float]) -> str:
+    """Return stresses in a unit that suits the largest."""
+    scale, unit = next(
+        (scale, unit)
+        for scale, unit in ((1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"))
+        if stresses[-1] >= scale or scale == 1.0
+    )
+    shown = [_number(stress / scale) for stress in stresses]
+    if len(shown) > 4:
+        shown = [f"{shown[0]} to {shown[-1]}"]
+    return f"{', '.join(shown)} {unit}"
+
+
+def _time(plan: Plan, seconds: float, cores: int, note: str | None) -> str:
+    if note is not None:
+        return f"not known, since no trial could be made: {note}"
+    evaluations = f"{plan.force_evaluations:,.0f}".replace(",", " ")
+    fixed = fixed_seconds(plan) - FIGURES
+    return (
+        f"compression about {duration(seconds)} on {cores} core{'s' * (cores != 1)}, half or twice "
+        f"as long ({evaluations} force evaluations a packing); to start jobs "
+        f"{duration(fixed / cores)}, figures {duration(FIGURES)}"
+    )
+
+
+def _warnings(plan: Plan, cores: int) -> list[str]:
+    ranks = plan.sample.ranks
+    if ranks > cores:
+        return [*plan.warnings, f"ranks {ranks}, and {cores} core(s) -> {cores} are started"]
+    return plan.warnings

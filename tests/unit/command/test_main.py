@@ -1,0 +1,211 @@
+"""The console command as a user types it: what it prints, and its exit codes."""
+
+import subprocess
+import sys
+
+import pytest
+
+from branchcrush.command.main import main
+
+SIEVES = "opening [mm],percent passing\n2,100\n1,60\n0.5,20\n0.25,0\n"
+STUDY = """\
+samples:
+  mine:
+    grading: {form: uniform, basis: number, size: diameter, unit: mm, min: 0.5, max: 1.0}
+    grains: GRAINS
+    loading: {edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 4, quality: draft}
+    seeds: 2
+figures: {dpi: 50}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "soil.csv").write_text(SIEVES)
+    return tmp_path
+
+
+def study(folder, grains):
+    (folder / "config.yaml").write_text(STUDY.replace("GRAINS", str(grains)))
+
+
+def printed(capsys, *arguments):
+    """Return the exit code of a command and what it wrote, to both streams."""
+    try:
+        code = main(arguments)
+    except SystemExit as ended:
+        code = ended.code
+    return code, *capsys.readouterr()
+
+
+# --- grading -------------------------------------------------------------------------------------
+
+
+def test_a_table_is_told_with_its_sizes_and_the_lines_to_paste(folder, capsys):
+    code, out, err = printed(capsys, "grading", "soil.csv", "--unit", "mm")
+    assert (code, err) == (0, "")
+    assert "read as: values: percent finer by mass" in out
+    # Even in the logarithm, the monotone cubic meets its points: D60 is 1 mm.
+    assert "D60 1, " in out and "mm by mass" in out
+    pasted = out.split("to paste below a sample:\n")[1]
+    for line in ("grading:", "  form: sieve", "  unit: mm", "  size: diameter", "  file: soil.csv"):
+        assert f"    {line}\n" in pasted
+
+
+def test_lines_to_paste_name_the_file_as_the_study_beside_it_does(folder, capsys):
+    (folder / "my sand").mkdir()
+    (folder / "soil.csv").rename(folder / "my sand" / "soil.csv")
+    for place in ("my sand/soil.csv", str(folder / "my sand" / "soil.csv")):
+        _, out, _ = printed(capsys, "grading", place, "--unit", "mm")
+        pasted = out.split("to paste below a sample:\n")[1]
+        assert "      file: soil.csv\n" in pasted and "my sand" not in pasted
+        assert "file: relative to the folder that the study runs in" in pasted
+
+
+def test_a_curve_through_sizes_needs_no_file(folder, capsys):
+    keys = "--form lognormal --basis mass --size diameter --unit um --d10 82 --d50 200 --d90 486"
+    code, out, _ = printed(capsys, "grading", *keys.split(), "--min", "10", "--max", "4000")
+    assert code == 0
+    assert "lognormal, median 199.8 um, geometric standard deviation 2" in out
+    assert "D50 199.8" in out
+
+
+def test_a_picture_is_drawn_where_it_is_asked_for(folder, capsys):
+    assert printed(capsys, "grading", "soil.csv", "--unit", "mm")[0] == 0
+    assert not list(folder.rglob("*.png"))
+    code, out, _ = printed(capsys, "grading", "soil.csv", "--unit", "mm", "--picture", "a.png")
+    assert code == 0 and "picture: a.png" in out
+    assert (folder / "a.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("name", ["a.pdf", "a.foo", "a"])
+def test_a_picture_that_is_no_png_is_a_usage_error(folder, capsys, name):
+    code, out, err = printed(capsys, "grading", "soil.csv", "--unit", "mm", "--picture", name)
+    assert code == 2 and out == ""
+    assert err.splitlines()[-1].endswith(f"argument --picture: {name!r} must end in .png")
+    assert not (folder / name).exists()
+
+
+def test_the_sketch_rises_from_the_finest_to_the_coarsest_grain(folder, capsys):
+    _, out, _ = printed(capsys, "grading", "soil.csv", "--unit", "mm")
+    rows = [line for line in out.splitlines() if "|" in line]
+    assert [row.split("|")[0].strip() for row in rows] == [str(k) for k in range(100, -1, -10)]
+    first = [len(row) - len(row.split("|")[1].lstrip()) for row in rows]
+    assert first == sorted(first, reverse=True)
+    assert "0.25" in out and "2 mm" in out
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ("soil.csv", "grading.unit: missing"),
+        ("soil.csv --unit um --form histogram", "grading.sizes: missing"),
+        ("--form lognormal --basis mass --size diameter --unit um --d50 200", "two or three of"),
+    ],
+)
+def test_what_is_wrong_or_missing_is_a_line_and_no_traceback(folder, capsys, keys, words):
+    code, out, err = printed(capsys, "grading", *keys.split())
+    assert code == 1 and out == ""
+    assert words in err
+    assert all(line.startswith("error: ") for line in err.splitlines())
+
+
+def test_an_unknown_word_is_a_usage_error(folder, capsys):
+    code, _, err = printed(capsys, "grading", "soil.csv", "--unit", "furlong")
+    assert code == 2
+    assert "invalid choice: 'furlong'" in err
+
+
+@pytest.mark.parametrize("place", ["nowhere.csv", "nowhere/soil.csv"])
+def test_no_such_table_is_another_exit_code(folder, capsys, place):
+    code, out, err = printed(capsys, "grading", place, "--unit", "mm")
+    assert code == 2 and out == ""
+    assert err.startswith(f"error: {place}: there is no such file in") and err.count("\n") == 1
+
+
+# --- check ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("place", [[], ["."], ["config.yaml"]])
+def test_a_sound_study_is_said_to_be(folder, capsys, place):
+    study(folder, 500)
+    code, out, err = printed(capsys, "check", *place)
+    assert (code, err) == (0, "")
+    assert out.startswith("mine: uniform, 500 grains, 2 packings\nsound: ")
+
+
+def test_all_problems_are_named_at_once(folder, capsys):
+    (folder / "config.yaml").write_text(
+        STUDY.replace("GRAINS", "20").replace("seeds: 2", "seeds: 0").replace("dpi", "dpj")
+    )
+    code, out, err = printed(capsys, "check")
+    assert code == 1 and out == ""
+    lines = err.splitlines()
+    assert len(lines) == 3 and all(line.startswith("config: ") for line in lines)
+
+
+def test_a_file_that_is_no_yaml_is_a_line(folder, capsys):
+    (folder / "config.yaml").write_text("samples: [")
+    code, _, err = printed(capsys, "check", str(folder))
+    assert code == 1
+    assert len(err.splitlines()) == 1 and err.startswith("config: config.yaml, line ")
+
+
+@pytest.mark.parametrize("command", ["check", "preview"])
+def test_no_such_folder_is_another_exit_code(folder, capsys, command):
+    code, _, err = printed(capsys, command, "nowhere")
+    assert code == 2
+    assert err.startswith("error: there is no file nowhere") and len(err.splitlines()) == 1
+
+
+def test_files_are_relative_to_the_folder_of_the_study(folder, capsys, monkeypatch):
+    study(folder, 5000)
+    text = (folder / "config.yaml").read_text()
+    begin, end = text.index("{form: uniform"), text.index("\n    grains")
+    sieve = "{form: sieve, basis: mass, size: diameter, unit: mm, file: soil.csv}"
+    (folder / "config.yaml").write_text(text[:begin] + sieve + text[end:])
+    (folder / "elsewhere").mkdir()
+    monkeypatch.chdir(folder / "elsewhere")
+    assert printed(capsys, "check", "..")[0] == 0
+
+
+# --- preview -------------------------------------------------------------------------------------
+
+
+def test_a_preview_is_printed_and_written_for_grains_that_a_run_refuses(folder, capsys):
+    study(folder, 60)
+    assert printed(capsys, "check")[0] == 1
+    code, out, err = printed(capsys, "preview", "--cores", "1")
+    assert (code, err) == (0, "")
+    assert out == (folder / "results/preview.txt").read_text(encoding="utf-8")
+    assert out.startswith("mine: 60 grains, 2 packings")
+    assert "the run refuses this unless allow_unrepresentative" in " ".join(out.split())
+    assert (folder / "results/figures/mine/preview.png").stat().st_size > 1000
+
+
+def test_a_preview_of_a_mistake_names_it_once(folder, capsys):
+    study(folder, 1)
+    code, out, err = printed(capsys, "preview")
+    assert code == 1 and out == ""
+    assert err.startswith("config: samples.mine.grains = 1: must be") and err.count("\n") == 1
+    assert not (folder / "results").exists()
+
+
+# --- the command line ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", [[], ["grading"], ["preview"], ["check"]])
+def test_help_is_there_and_names_the_exit_codes(capsys, command):
+    code, out, _ = printed(capsys, *command, "--help")
+    assert code == 0
+    assert "exit code: 0 sound" in " ".join(out.split())
+
+
+def test_help_imports_nothing_that_takes_long():
+    asked = "import sys; from branchcrush.command.main import parser; parser().format_help(); "
+    told = (
+        "print(sorted({'numpy', 'pydantic', 'scipy', 'matplotlib', 'pandas'} & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", asked + told], capture_output=True, text=True)
+    assert run.stdout.strip() == "[]", run.stderr

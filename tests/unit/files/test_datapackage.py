@@ -1,0 +1,57 @@
+"""The Data Package of a study: which files it names, and what it says of them."""
+
+from branchcrush.files.datapackage import data_package
+from branchcrush.files.dictionary import result_files
+
+PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]})
+BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
+
+
+def test_every_sample_and_seed_has_its_files_and_names_are_unique():
+    packings = [path for path in BY_PATH if path.endswith("/path.csv")]
+    assert packings == [
+        "Sand/seed_1/path.csv",
+        "Sand/seed_2/path.csv",
+        "sand/seed_7/path.csv",
+        "Sand-refined/seed_1/path.csv",
+    ]
+    names = {resource["name"] for resource in PACKAGE["resources"]}
+    assert len(names) == len(PACKAGE["resources"]) == len(BY_PATH)
+
+
+def test_seeds_run_again_have_a_certificate_and_no_fit():
+    again = {path for path in BY_PATH if path.startswith("Sand-refined/")}
+    assert {"Sand-refined/certificate.csv", "Sand-refined/jamming.csv"} <= again
+    assert "Sand-refined/energy_split.json" not in again
+    assert "Sand-refined/certificate.json" not in again
+    assert not any("refined" in path for path in BY_PATH if path.startswith("figures/"))
+
+
+def test_a_table_has_a_schema_with_units_and_says_where_its_comment_is():
+    resource = BY_PATH["sand/seed_7/path.csv"]
+    assert resource["type"] == "table"
+    assert (resource["dialect"]["headerRows"], resource["dialect"]["commentChar"]) == ([2], "#")
+    fields = {field["name"]: field for field in resource["schema"]["fields"]}
+    assert fields["mean_stress_Pa"]["type"] == "number"
+    assert fields["mean_stress_Pa"]["unit"] == "Pa"
+    assert "unit" not in fields["carries_load"]
+    # Every packing has all columns; a sample without a fit has not.
+    assert "fieldsMatch" not in resource["schema"]
+    assert BY_PATH["sand/energy_split.csv"]["schema"]["fieldsMatch"] == "superset"
+
+
+def test_other_files_are_named_as_what_they_are():
+    assert BY_PATH["Sand/seed_1/contacts.parquet"]["format"] == "parquet"
+    keys = {key["name"]: key for key in BY_PATH["sand/grading.json"]["keys"]}
+    assert keys["realised.D50_m"]["unit"] == "m"
+    assert BY_PATH["report.html"]["mediatype"] == "text/html"
+    assert BY_PATH["figures/sand/fig3_grading.png"]["format"] == "png"
+    assert "preview.txt" not in BY_PATH and "datapackage.json" not in BY_PATH
+
+
+def test_all_that_a_study_always_makes_is_there_and_no_record_nor_dump():
+    # Which dumps there are is up to keep_dumps, and to who deletes them.
+    left_out = ("datapackage.json", "/made.json", "made/<rule>.json", ".dump.gz")
+    for file in result_files():
+        is_expected = file.rule != "preview" and not file.path.endswith(left_out)
+        assert any(file.matches(path) for path in BY_PATH) == is_expected, file.path

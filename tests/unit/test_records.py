@@ -1,0 +1,229 @@
+"""The record of a job: whether it still fits what is there, and what is said where it does not."""
+
+import json
+import os
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from branchcrush.errors import FitError
+from branchcrush.records import (
+    OutOfDate,
+    dumps_not_kept,
+    lines_of,
+    out_of_date,
+    read_record,
+    recorded_job,
+)
+
+RECORD = "results/sand/made/fit.json"
+
+
+class Named(list):
+    """Files or values, by name and by number: what Snakemake gives to scripts and has in jobs."""
+
+    def __init__(self, **values):
+        super().__init__(values.values())
+        self.__dict__.update(values)
+
+    def keys(self):
+        return self.__dict__.keys()
+
+    def items(self):
+        return self.__dict__.items()
+
+
+def fit(*, code="c0de", inputs=("sieve.csv", "results/sand/path.csv"), dumps="all", **config):
+    """Return a job of a rule fit, as it would be done now."""
+    config = {"grains": 60, "contact": {"law": "linear", "stiffness": 1e6}} | config
+    return SimpleNamespace(
+        rule=SimpleNamespace(name="fit"),
+        wildcards=Named(sample="sand"),
+        params=Named(code=code, sample=config, bins=20, inputs="/a/clone", keep_dumps=dumps),
+        input=Named(**{f"input{n}": path for n, path in enumerate(inputs)}),
+        output=Named(table="results/sand/fit.csv", result="results/sand/fit.json", record=RECORD),
+    )
+
+
+def as_script(made):
+    return SimpleNamespace(**{**vars(made), "rule": "fit", "log": ["logs/fit.log"]})
+
+
+def do(made):
+    """Do a job, as its script does."""
+    with recorded_job(as_script(made)) as beside:
+        for path in made.output[:2]:
+            Path(path).parent.mkdir(parents=True, exist_ok=True)
+            Path(path).write_text("abc")
+        Path("results/sand/pairs.dump.gz").write_text("abd")
+        beside.append("results/sand/pairs.dump.gz")
+
+
+def reasons(made):
+    return [case.reason for case in out_of_date([made])]
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    """A study whose one job is done."""
+    monkeypatch.chdir(tmp_path)
+    Path("results/sand").mkdir(parents=True)
+    Path("sieve.csv").write_text("abc")
+    Path("results/sand/path.csv").write_text("abd")
+    do(fit())
+    return tmp_path
+
+
+def test_a_record_tells_what_made_the_files_and_what_they_hold():
+    abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+    abd = "a52d159f262b2c6ddb724a61840befc36eb30c88877a4030b65cbe86298449c9"
+    record = json.loads(Path(RECORD).read_text())
+    assert record.pop("branchcrush")
+    assert record == {
+        "rule": "fit",
+        "wildcards": {"sample": "sand"},
+        "code": "c0de",
+        "keep_dumps": "all",
+        "params": {
+            "sample": {"grains": 60, "contact": {"law": "linear", "stiffness": 1e6}},
+            "bins": 20,
+        },
+        "inputs": {"sieve.csv": abc, "results/sand/path.csv": abd},
+        "outputs": {"results/sand/fit.csv": abc, "results/sand/fit.json": abc},
+        "beside": {"results/sand/pairs.dump.gz": abd},
+    }
+
+
+def test_the_same_job_leaves_the_same_record_whenever_it_is_done():
+    before = Path(RECORD).read_bytes()
+    do(fit())
+    assert Path(RECORD).read_bytes() == before
+
+
+def test_a_job_that_fails_leaves_no_record():
+    Path(RECORD).unlink()
+    with pytest.raises(SystemExit), recorded_job(as_script(fit())):
+        raise FitError("no load")
+    assert read_record(RECORD) is None
+
+
+@pytest.mark.parametrize("notes", [True, False])
+def test_times_and_places_are_no_reason(here, tmp_path_factory, monkeypatch, notes):
+    elsewhere = tmp_path_factory.mktemp("elsewhere") / "study"
+    here.rename(elsewhere)
+    monkeypatch.chdir(elsewhere)
+    for number, file in enumerate(sorted(elsewhere.rglob("*"))):
+        os.utime(file, ns=(number, 10**18 - number))
+    if not notes:
+        for file in Path(".snakemake").rglob("*.json"):
+            file.unlink()
+    moved = fit()
+    moved.params.inputs = "/another/clone"
+    assert reasons(moved) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"code": "new"}, "its code changed"),
+        ({"grains": 50}, "grains changed"),
+        ({"contact": {"law": "linear", "stiffness": 2e6}}, "contact.stiffness changed"),
+        ({"contact": {"law": "hertz"}}, "contact.law, contact.stiffness changed"),
+        ({"a": 1, "b": 1, "c": 1, "grains": 2}, "grains, a, b and 1 more changed"),
+        # Samples are listed in their order.
+        ({"contact": {"stiffness": 1e6, "law": "linear"}}, "the order of its keys changed"),
+        ({"inputs": ["sieve.csv"]}, "its input path.csv is no longer one"),
+        ({"inputs": ["results/sand/path.csv", "sieve.csv"]}, "its inputs changed places"),
+        ({"inputs": ["sieve.csv", "results/sand/path.csv", RECORD]}, "its input fit.json is new"),
+    ],
+)
+def test_other_code_configuration_or_inputs_are_a_reason(change, reason):
+    assert reasons(fit(**change)) == [reason]
+
+
+@pytest.mark.parametrize(
+    ("file", "changed", "missing"),
+    [
+        ("sieve.csv", "its input sieve.csv changed", "its input sieve.csv is missing"),
+        (
+            "results/sand/fit.json",
+            "its file fit.json is not as it was left",
+            "its file fit.json is missing",
+        ),
+        (RECORD, "its record is damaged", "no record tells what made its files"),
+    ],
+)
+def test_other_content_and_a_missing_file_are_reasons(file, changed, missing):
+    Path(file).write_text("abd")
+    assert reasons(fit()) == [changed]
+    Path(file).unlink()
+    assert reasons(fit()) == [missing]
+
+
+def test_an_input_that_is_edited_while_a_job_is_at_work_is_another_one():
+    with recorded_job(as_script(fit())):
+        Path("sieve.csv").write_text("abe")
+    assert reasons(fit()) == ["its input sieve.csv changed"]
+
+
+@pytest.mark.parametrize("whole", ["[]", "{}", '{"code": 3, "params": {}}', "\xff"])
+def test_a_record_that_holds_something_else_is_damaged(whole):
+    Path(RECORD).write_text(whole, encoding="latin-1")
+    assert reasons(fit()) == ["its record is damaged"]
+
+
+def test_what_was_never_done_and_what_has_no_record_is_no_case(here):
+    for path in fit().output:
+        Path(path).unlink()
+    other = fit(code="new")
+    del other.output.record
+    assert out_of_date([fit(), other]) == []
+
+
+def test_half_of_what_an_interrupted_job_leaves_is_made_anew():
+    for path in fit().output[1:]:
+        Path(path).unlink()
+    assert reasons(fit()) == ["no record tells what made its files"]
+
+
+def test_a_dump_may_go():
+    Path("results/sand/pairs.dump.gz").unlink()
+    assert reasons(fit()) == []
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "told"),
+    [
+        ("all", "none", False),
+        ("last", "last", False),
+        ("none", "last", True),
+        ("last", "all", True),
+    ],
+)
+def test_fewer_dumps_are_no_reason_and_more_are_told(before, now, told):
+    do(fit(dumps=before))
+    assert reasons(fit(dumps=now)) == []
+    line = dumps_not_kept([fit(dumps=now)])
+    assert ("--forcerun fit" in line and f"keep_dumps: {now}" in line) if told else line == ""
+
+
+def test_jobs_that_write_no_dumps_do_not_hide_what_others_kept():
+    do(fit(dumps="none"))
+    line = dumps_not_kept([fit(dumps="last"), fit(dumps=None)])
+    assert line.startswith("keep_dumps: last holds ") and "; 1 packing kept less" in line
+
+
+def test_a_line_for_each_reason_names_jobs_and_counts_packings():
+    def case(rule, reason, **wildcards):
+        made = SimpleNamespace(rule=SimpleNamespace(name=rule), wildcards=Named(**wildcards))
+        return OutOfDate(made, reason)
+
+    seeds = [case("compression", "grains changed", sample="sand", seed=str(k)) for k in range(3)]
+    others = [case("fit", "its code changed", sample=name) for name in "abcde"]
+    page = [case("report", "its file report.html is missing")]
+    assert lines_of(seeds + others + page) == [
+        "made anew: compression of sand (3 packings), because grains changed",
+        "made anew: fit of a, fit of b, fit of c and 2 more, because its code changed",
+        "made anew: report, because its file report.html is missing",
+    ]

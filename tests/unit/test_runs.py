@@ -1,0 +1,144 @@
+"""One run in a folder at a time, and jobs that live no longer than their run."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from branchcrush import runs
+from branchcrush.errors import RunError
+from branchcrush.runs import one_run
+
+JOB = "from branchcrush.runs import join_run; import time; join_run(); print(1, flush=True); "
+# Begins a run and a job in it, tells the job, and waits.
+RUN = f"""\
+import subprocess, sys, time
+from branchcrush.runs import one_run
+job = [sys.executable, "-c", {JOB + "time.sleep(60)"!r}]
+with one_run():
+    process = subprocess.Popen(job, stdout=subprocess.PIPE)
+    process.stdout.readline()
+    print(process.pid, flush=True)
+    try:
+        process.wait()
+    except KeyboardInterrupt:  # as Snakemake, which waits for what runs
+        sys.exit(process.wait() < 0)
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def run():
+    """A run in this folder, and its job, as processes of their own."""
+    main = subprocess.Popen([sys.executable, "-c", RUN], stdout=subprocess.PIPE, text=True)
+    main.job = int(main.stdout.readline())
+    yield main
+    main.kill()
+    main.wait()
+    main.stdout.close()
+
+
+def ends(process):
+    """Return whether a process ends within some seconds."""
+    end = time.monotonic() + 10
+    while time.monotonic() < end:
+        try:
+            state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            return True
+        if state == "Z":
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def test_second_run_is_told_of_the_first_in_one_sentence(run):
+    with pytest.raises(RunError) as refused, one_run():
+        pass
+    told = re.fullmatch(
+        r"another run has this folder since (.+): process (\d+) on (.+), `-c`; "
+        "wait until it has ended, or end it",
+        str(refused.value),
+    )
+    assert int(told[2]) == run.pid
+    assert told[3] == os.uname().nodename
+    assert told[1].startswith(time.strftime("%Y-%m-"))
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGTERM, signal.SIGINT])
+def test_folder_is_free_and_the_job_dead_after_any_end(run, number):
+    run.send_signal(number)
+    # Before anybody has looked after the dead run.
+    assert ends(run.job)
+    assert run.wait(10) != 0
+    with one_run():
+        pass
+
+
+def test_folder_is_free_after_a_run_and_after_an_error(folder):
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError), one_run():
+            1 / 0  # noqa: B018
+    with one_run():
+        pass
+    assert sorted(path.name for path in folder.iterdir()) == [".branchcrush"]
+
+
+def test_a_lock_that_was_removed_by_hand_ends_no_job(run, folder):
+    (folder / ".branchcrush" / "run.lock").unlink()
+    time.sleep(0.6)
+    assert run.poll() is None
+
+
+def of_run(run):
+    return {**os.environ, "BRANCHCRUSH_RUN": run}
+
+
+def test_job_whose_run_died_before_it_began_ends_at_once(folder):
+    with one_run():
+        run = os.environ["BRANCHCRUSH_RUN"]
+        job = [sys.executable, "-c", JOB]
+        assert subprocess.run(job, capture_output=True).stdout == b"1\n"
+        # The same number, given to a process that began later.
+        *rest, start = run.split(" ")
+        other = " ".join([*rest, str(int(start) - 1)])
+        (folder / ".branchcrush" / "run.lock").write_text(other)
+        ended = subprocess.run(job, env=of_run(other), capture_output=True)
+        assert (ended.returncode, ended.stdout) == (-signal.SIGKILL, b"")
+    # Another run has the folder by now.
+    with one_run():
+        ended = subprocess.run(job, env=of_run(run), capture_output=True)
+        assert (ended.returncode, ended.stdout) == (-signal.SIGKILL, b"")
+
+
+def test_no_run_begins_beside_a_job_of_an_earlier_one(folder, monkeypatch):
+    monkeypatch.setattr(runs, "_PATIENCE", 0.5)
+    lock = folder / ".branchcrush" / "jobs.lock"
+    lock.parent.mkdir()
+    holds = "import fcntl, sys, time; file = open(sys.argv[1], 'w'); "
+    holds += "fcntl.flock(file, fcntl.LOCK_SH); print(1, flush=True); time.sleep(60)"
+    job = subprocess.Popen([sys.executable, "-c", holds, str(lock)], stdout=subprocess.PIPE)
+    with job.stdout:
+        job.stdout.readline()
+        with pytest.raises(RunError, match="jobs of an earlier run are still at work"), one_run():
+            pass
+    job.kill()
+    job.wait()
+    with one_run():
+        pass
+
+
+def test_folder_that_cannot_be_written_to_is_told(folder):
+    (folder / ".branchcrush").touch()
+    with pytest.raises(RunError, match=r"cannot be locked for a run: .*branchcrush"), one_run():
+        pass

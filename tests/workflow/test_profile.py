@@ -1,0 +1,59 @@
+"""The profile beside the Snakefile is read however the workflow is run, and each setting acts."""
+
+import base64
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from snakemake.cli import parse_args
+
+ROOT = Path(__file__).parents[2]
+READ = "Using workflow specific profile {} for setting default command line arguments."
+MADE = re.findall(r"\bsnakemake (--cores .*)", (ROOT / "Makefile").read_text(encoding="utf-8"))
+
+
+def read(arguments, capsys):
+    _, settings = parse_args(arguments)
+    sentence = READ.format(".*profiles/default")
+    assert re.fullmatch(sentence, capsys.readouterr().err.strip())
+    assert settings.rerun_incomplete
+    assert settings.scheduler == "greedy"
+
+
+@pytest.mark.parametrize("more", [[], ["--directory", "examples"], ["preview"], ["-n"]])
+def test_in_the_folder_of_the_snakefile(more, capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    read(["--cores", "1", *more], capsys)
+
+
+def test_from_any_other_folder(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    read(["--cores", "1", "--snakefile", str(ROOT / "Snakefile")], capsys)
+
+
+def test_by_every_command_of_make(capsys, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert len(MADE) >= 5
+    for line in MADE:
+        read(shlex.split(line.replace("$(CORES)", "2")), capsys)
+
+
+def test_what_a_job_left_unfinished_is_made_anew_with_the_profile_and_without(finished):
+    name = base64.urlsafe_b64encode(b"results/tiny/seed_5/path.csv").decode()
+    mark = finished.folder / ".snakemake" / "incomplete" / name
+    mark.parent.mkdir(exist_ok=True)
+    mark.write_text("{}")
+    try:
+        for arguments in ([], ["--workflow-profile", "none"]):
+            run = finished.snakemake("--dry-run", "--quiet", "host", *arguments)
+            text = run.stdout + run.stderr
+            assert run.returncode == 0, text
+            assert ("Using workflow specific profile" in text) == (not arguments)
+            # The screen of the profile names the job in a line, Snakemake's own its files.
+            again, finished_seed = (
+                ("seed 5", "seed 3") if not arguments else ("seed_5/path.csv", "seed_3/path.csv")
+            )
+            assert again in text and finished_seed not in text.split("input:")[0]
+    finally:
+        mark.unlink()
