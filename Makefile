@@ -63,7 +63,7 @@ tutorial: $(READY) ## the study of docs/tutorial.md, and the pictures and number
 	cp build/tutorial/results/comparison.csv docs/results/tutorial.csv
 	$(MADE) > docs/results/tutorial_made.txt
 
-quality: $(READY) ## what draft, standard and fine mean, and notes of a certificate: docs/quality.md, half an hour on 2 cores
+quality: $(READY) ## what draft, standard and fine mean, and notes of a certificate: docs/quality.md, 100 packings
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/quality
 	cp studies/quality/results/comparison.csv docs/results/quality.csv
 	$(BIN)/python studies/quality/effects.py > docs/results/note_effects.csv

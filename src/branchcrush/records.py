@@ -138,7 +138,11 @@ def _reason(made, digests):
     record, results = read_record(made.output.record), _results(made)
     missing = [path for path in results if not os.path.exists(path)]
     if record is None:
-        return "" if len(missing) == len(results) else "no record tells what made its files"
+        return (
+            ""
+            if len(missing) == len(results)
+            else "no record tells what made its files: interrupted, or of an earlier version"
+        )
     if not record:
         return "its record is damaged"
     if missing:

@@ -151,7 +151,11 @@ def test_other_code_configuration_or_inputs_are_a_reason(change, reason):
             "its file fit.json is not as it was left",
             "its file fit.json is missing",
         ),
-        (RECORD, "its record is damaged", "no record tells what made its files"),
+        (
+            RECORD,
+            "its record is damaged",
+            "no record tells what made its files: interrupted, or of an earlier version",
+        ),
     ],
 )
 def test_other_content_and_a_missing_file_are_reasons(file, changed, missing):
@@ -184,7 +188,9 @@ def test_what_was_never_done_and_what_has_no_record_is_no_case(here):
 def test_half_of_what_an_interrupted_job_leaves_is_made_anew():
     for path in fit().output[1:]:
         Path(path).unlink()
-    assert reasons(fit()) == ["no record tells what made its files"]
+    assert reasons(fit()) == [
+        "no record tells what made its files: interrupted, or of an earlier version"
+    ]
 
 
 def test_a_dump_may_go():

@@ -17,8 +17,10 @@ from branchcrush.runs import one_run
 JOB = "from branchcrush.runs import join_run; import time; join_run(); print(1, flush=True); "
 # Begins a run and a job in it, tells the job, and waits.
 RUN = f"""\
-import subprocess, sys, time
+import signal, subprocess, sys, time
 from branchcrush.runs import one_run
+# A shell lets what it runs in the background ignore Ctrl-C, and so would this.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 job = [sys.executable, "-c", {JOB + "time.sleep(60)"!r}]
 with one_run():
     process = subprocess.Popen(job, stdout=subprocess.PIPE)

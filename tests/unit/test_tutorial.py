@@ -5,12 +5,17 @@ import re
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study
 from branchcrush.config.file import config_file_problem
+from branchcrush.config.sample import sample_of
 from branchcrush.gradings.representativity import representativity
+from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.study.preview import sample_plan
+from branchcrush.study.preview_text import preview_text
 from branchcrush.study.summary import summary
 
 ROOT = Path(__file__).parents[2]
@@ -41,11 +46,19 @@ def test_the_files_of_the_tutorial_are_a_study_without_a_warning(study):
     grading = grading_of(study["grading"])
     smallest, largest = grading.support()
     assert (2e3 * smallest, 2e3 * largest) == pytest.approx((0.25, 0.6))
-    # As the page says of 800 grains and of 400, at about the solid fraction of 10 MPa.
-    standing = representativity(grading, study["grains"], 0.66)
-    assert standing.verdict == "accept"
-    assert f"{standing.edge_over_diameter:.1f} largest diameters" in PAGE
-    assert representativity(grading, 400, 0.66).verdict == "warn"
+    # As the page says of 800 grains and of 400.
+    end = sample_of(study).end
+    assert representativity(grading, study["grains"], end).verdict == "accept"
+    assert representativity(grading, 400, end).verdict == "warn"
+
+
+def test_the_page_has_the_size_of_the_cell_that_the_preview_prints(study):
+    sample = sample_of(study)
+    radii = sampled_radii(sample.grading, sample.grains, sample.sampling, np.random.default_rng(1))
+    plan = sample_plan(sample, radii, 1e-7, None)
+    text = " ".join(preview_text({"my_sand": plan}, 2, {"my_sand": "a.png"}, {}).split())
+    printed = re.search(r"([\d.]+) largest diameters \(D99\.9\)", text)[1]
+    assert f"about {float(printed):.1f} largest diameters (D99.9)" in PAGE
 
 
 def test_a_file_is_found_by_the_line_above_its_block(tutorial):

@@ -135,7 +135,7 @@ def masses(rest):
 )
 def test_a_grading_of_wrong_keys(study, grading, expected):
     study.configure(with_grading(study.tiny, grading))
-    lines = study.refused()
+    lines = study.checked()
     assert len(lines) == len(expected), lines
     for line, start in zip(lines, expected, strict=True):
         assert line.startswith(f"config: {PLACE}{start}")
@@ -163,7 +163,7 @@ def test_a_sieve_table_that_is_wrong_is_answered_with_its_lines(study, content, 
     table = study.folder / "sand.csv"
     table.write_bytes(content if isinstance(content, bytes) else content.encode())
     study.configure(with_grading(study.tiny, masses("form: sieve, file: sand.csv")))
-    lines = study.refused()
+    lines = study.checked()
     assert len(lines) == len(expected), lines
     for line, words in zip(lines, expected, strict=True):
         assert line.startswith(f"config: {PLACE}.file: sand.csv")
@@ -181,13 +181,13 @@ def test_a_sieve_table_that_is_wrong_is_answered_with_its_lines(study, content, 
 def test_another_file_that_is_wrong(study, form, content, words):
     (study.folder / "sand.csv").write_text(content)
     study.configure(with_grading(study.tiny, numbers(f"form: {form}, file: sand.csv")))
-    (line,) = study.refused()
+    (line,) = study.checked()
     assert line.startswith(f"config: {PLACE}.file: sand.csv, {words}")
 
 
 def test_a_grading_that_its_grains_cannot_stand_for(study):
     study.configure(study.tiny.replace("    allow_unrepresentative: true\n", ""))
-    (line,) = study.refused()
+    (line,) = study.checked()
     assert line.startswith("config: samples.tiny.grains = 60: 60 grains put ")
     assert "too few for this grading" in line
     assert line.endswith("or set allow_unrepresentative: true, which the report will repeat")

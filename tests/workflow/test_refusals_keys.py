@@ -145,7 +145,7 @@ def with_key(text, path, typed):
 )
 def test_a_wrong_key_of_a_sample(study, path, typed, expected):
     study.configure(with_key(study.tiny, f"samples/tiny/{path}", typed))
-    (line,) = study.refused()
+    (line,) = study.checked()
     assert line.startswith(f"config: samples.tiny.{path.split('/')[0]}{expected}")
 
 
@@ -174,7 +174,7 @@ def test_a_wrong_key_of_a_sample(study, path, typed, expected):
 )
 def test_a_wrong_key_of_another_section(study, path, typed, expected):
     study.configure(with_key(study.tiny, path, typed))
-    (line,) = study.refused()
+    (line,) = study.checked()
     assert line.startswith(f"config: {path.replace('/', '.')}{expected}")
 
 
@@ -191,11 +191,24 @@ def test_a_wrong_key_of_another_section(study, path, typed, expected):
 )
 def test_a_name_that_can_be_no_folder(study, name, expected):
     study.configure(study.tiny.replace("  tiny:", f"  {name}:"))
-    (line,) = study.refused()
+    (line,) = study.checked()
     assert line.startswith(f"config: samples.{name} = ")
     assert expected in line
 
 
 def test_a_missing_key_says_what_it_may_hold(study):
     study.configure(study.tiny.replace("    grains: 60\n", ""))
-    assert study.refused() == [f"config: samples.tiny.grains: missing; {GRAINS}"]
+    assert study.checked() == [f"config: samples.tiny.grains: missing; {GRAINS}"]
+
+
+@pytest.mark.parametrize(
+    ("key", "wrong"),
+    [("grains", "grains: many"), ("seeds", "seeds: 0"), ("boundary", "boundary: wall")],
+)
+def test_a_run_names_what_a_check_names(study, key, wrong):
+    lines = [wrong if line.strip().startswith(key) else line for line in study.tiny.splitlines()]
+    text = "\n".join(f"    {line}" if line == wrong else line for line in lines)
+    study.configure(text.replace("form: uniform", "form: unifrom"))
+    problems = study.checked()
+    assert len(problems) == 2
+    assert study.refused() == problems

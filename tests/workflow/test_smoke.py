@@ -264,7 +264,9 @@ def test_the_summary_names_exponent_interval_and_figures(finished):
     row = read_table(finished.folder / "results" / "comparison.csv").iloc[0]
     low, high = row["exponent_low"], row["exponent_high"]
     exponent = f"n = {row['exponent']:.2f}, with 95 % confidence between {low:.2f} and {high:.2f}"
-    assert f"tiny: {row['verdict']}, {exponent} (2 packings)" in text
+    assert row["verdict_reasons"].startswith("too few seeds")
+    verdict = f"{row['verdict']} ({row['verdict_reasons']})"
+    assert f"tiny: {verdict}, {exponent} (2 packings)" in text
     assert "report.html" in text
     assert "figures" in text
 

@@ -56,6 +56,8 @@ def check(place: str) -> int:
     int
         1 if there is a problem, else 0.
     """
+    # Before it becomes the working folder.
+    folder = "" if Path(place).is_file() or Path(place) == Path() else f" {place}"
     study = study_of(place)
     if study is None:
         return 1
@@ -64,5 +66,7 @@ def check(place: str) -> int:
             "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
         )
         print(f"{name}: {sample.grading.form}, {grains}, {len(sample.seeds)} packings")
-    print("sound: snakemake --cores 2 runs it, branchcrush preview tells what it will be")
+    where = f" --directory{folder}" if folder else ""
+    print(f"sound: branchcrush preview{folder} tells what it will be")
+    print(f"       snakemake --cores 2{where} runs it")
     return 0

@@ -71,7 +71,9 @@ def grading(
         raise FileNotFoundError(f"{file}: there is no such file in {Path.cwd()}")
     # The study runs in a folder of its own, where names begin.
     name = None if file is None else Path(file).name
-    report = grading_report(section_of(file, given), file_to_paste=name)
+    options = {key: item for key, item in given.items() if item is not None}
+    typed = None if file is None else {"file": file, **options}
+    report = grading_report(section_of(file, given), file_to_paste=name, typed=typed)
     if report.problems:
         print("\n".join(f"error: {line}" for line in report.problems), file=sys.stderr)
         return 1

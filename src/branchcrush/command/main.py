@@ -31,7 +31,7 @@ once, a line each. Names of files in it are relative to its folder.
 """
 _EXIT = "exit code: 0 sound, 1 problems in what was given, 2 no such file, folder or option"
 _HELP = {
-    "unit": "of the sizes",
+    "unit": "of the sizes, if the header gives none",
     "size": "what sizes are; a sieve's are diameters",
     "basis": "what the table counts; sieves weigh mass",
     "values": "what stands beside the openings of sieves",

@@ -20,6 +20,7 @@ from branchcrush.files.grading_tables import (
     read_radii,
     read_sieve_table,
 )
+from branchcrush.files.header_words import header_words
 from branchcrush.gradings.distribution import Grading
 
 # Percent of the mass that is finer.
@@ -92,7 +93,11 @@ class GradingReport:
     grading: Grading | None = None
 
 
-def grading_report(section: Mapping[str, Any], file_to_paste: str | None = None) -> GradingReport:
+def grading_report(
+    section: Mapping[str, Any],
+    file_to_paste: str | None = None,
+    typed: Mapping[str, Any] | None = None,
+) -> GradingReport:
     """Return how a section of a grading is read, without raising for what is wrong in it.
 
     Parameters
@@ -102,6 +107,9 @@ def grading_report(section: Mapping[str, Any], file_to_paste: str | None = None)
         directory.
     file_to_paste : str, optional
         Name of the file in the lines to paste, where it is not that of the section.
+    typed : mapping, optional
+        The file and the options of the command line. There the unit may be that of the file's
+        header, and problems name the command to type; a configuration has to say its unit.
 
     Returns
     -------
@@ -114,13 +122,20 @@ def grading_report(section: Mapping[str, Any], file_to_paste: str | None = None)
     >>> round(report.d_values["D50"], 6)
     1.5
     """
+    by_header = None
+    if typed is not None:
+        try:
+            unit, by_header = _unit_by_header(section)
+        except GradingError as error:
+            return GradingReport(problems=str(error).splitlines())
+        section = {**section, "unit": unit} if unit else section
     try:
         checked = _Root.model_validate({"grading": dict(section)}).grading
     except ValidationError as error:
         return GradingReport(problems=[problem(detail, _Root) for detail in error.errors()])
     plain = checked.model_dump(exclude_none=True)
     try:
-        grading = grading_of(plain)
+        grading = grading_of({**plain, "typed": typed})
         remarks = _remarks(plain)
     except GradingError as error:
         return GradingReport(_meaning(plain), problems=str(error).splitlines())
@@ -129,14 +144,31 @@ def grading_report(section: Mapping[str, Any], file_to_paste: str | None = None)
     # A mixture has no unit of its own.
     unit = plain.get("unit", "mm")
     sizes = 2 * grading.mass_ppf([share / 100 for share in SHARES]) / UNITS[unit]
+    header = [f"unit: {by_header}, by the header"] if by_header else []
     return GradingReport(
-        meaning=_meaning(plain) + remarks,
+        meaning=_meaning(plain) + header + remarks,
         d_values={f"D{share}": float(size) for share, size in zip(SHARES, sizes, strict=True)},
         unit=unit,
-        warnings=_warnings(filled),
+        warnings=_warnings(plain, filled),
         config_lines=_config_lines({**plain, **named, **filled}),
         grading=grading,
     )
+
+
+def _unit_by_header(section):
+    """Return the unit to read a file in, and again if it is the header that gives it."""
+    form, file = section["form"], section.get("file")
+    declared = Declared.of(section)
+    if section.get("unit") or file is None or declared.openings not in (None, "size"):
+        return None, None
+    words = header_words(file, form, declared)
+    known = words.units() & set(UNITS)
+    if len(words.units()) == 1 and known:
+        (unit,) = known
+        return unit, unit
+    # Words of phi or of sieves' numbers are answered by how to say so, which needs no unit.
+    answered = form in _READERS and words.openings() and "size" not in words.openings()
+    return ("mm" if answered else None), None
 
 
 def _meaning(plain):
@@ -199,11 +231,16 @@ def _edges(plain):
         return None
 
 
-def _warnings(filled):
-    """Return which keys a default filled."""
+def _warnings(plain, filled):
+    """Return which keys a default filled that no word above the columns agrees with."""
+    if not filled:
+        return []
+    words = header_words(plain["file"], plain["form"], Declared.of(plain))
+    said = {"values": words.values(), "openings": words.openings(), "per": words.per()}
     return [
         f"{key} is not given, and {default} is taken: nothing in the file speaks against it"
         for key, default in filled.items()
+        if said.get(key) != {default}
     ]
 
 

@@ -12,6 +12,7 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   says, and names every line that is wrong. `sheets` makes lines of cells of a file, whatever
   machine or person wrote it (`decoding` of text, `spreadsheets` of workbooks), `columns` chooses
   the two that are meant, `openings` and `headers` know words; `rows` are the numbers.
+  `header_words` are a table's before it is known how it is to be read.
 - `sieve_tables` makes a curve of a sieving, `sieve_readings` holds its words and numbers against
   what is declared; `channel_tables`, `channel_edges` and `channel_readings` are the like.
 - `dictionary` tells what every file of the results holds, each column and key with its type, unit

@@ -113,7 +113,7 @@ def _density_readings(against, declared, words, sizes, values):
     for basis in _bases(declared, words):
         for per in ("size", "log_size"):
             median = from_density(sizes, values, _by(basis), per=per).mass_ppf(0.5)
-            keys = f"form: density, basis: {basis}, per: {per}"
+            keys = declared.advice({"form": "density", "basis": basis, "per": per})
             read.append(f"`{keys}` D50 = {float(median):.3g} {declared.unit}")
     scale = "log" if regular(sizes, "log") else "linear"
     channels = replace(declared, scale=scale)
@@ -136,11 +136,15 @@ def _told(against, read, words, declared):
     """Return all that is known of a disagreement in one line."""
     others = sorted(words.units() - {declared.unit})
     if declared.unit not in words.units():
-        read = [*read, *(f"`unit: {unit}` each D50 is as many {unit}" for unit in others)]
+        units = {unit: declared.advice({"unit": unit}) for unit in others}
+        read += [f"`{keys}` each D50 is as many {unit}" for unit, keys in units.items()]
     seen = f" Read as {'; as '.join(read)}." if read else ""
+    typed = declared.typed is not None
+    to_do = "Type the command that is" if typed else "Paste the keys that are"
+    where = "" if typed else " into the grading"
     return (
-        f"the file and the keys disagree: {'; '.join(against)}.{seen} Paste the keys that are "
-        "meant into the grading, or correct the words in the file"
+        f"the file and the keys disagree: {'; '.join(against)}.{seen} {to_do} meant{where}, or "
+        "correct the words in the file"
     )
 
 
@@ -152,8 +156,9 @@ def _histogram_readings(rows, declared, words, kinds):
             edges, shares, _, wrong = edges_of_channels(rows, replace(declared, sizes=kind))
             if not wrong:
                 grading = from_histogram(edges, shares, _by(basis), scale=declared.taken("scale"))
-                keys = f"form: histogram, basis: {basis}, sizes: {kind}"
-                keys += f", scale: {declared.scale}" if declared.scale else ""
+                named = {"form": "histogram", "basis": basis, "sizes": kind}
+                named |= {"scale": declared.scale} if declared.scale else {}
+                keys = declared.advice(named)
                 median = float(grading.mass_ppf(0.5))
                 read.append(f"`{keys}` D50 = {median:.3g} {declared.unit}")
     return read

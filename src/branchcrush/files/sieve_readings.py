@@ -211,38 +211,74 @@ def _suggested(labels, declared, free):
 
 def _disagreement(against, declared, curve, others, table):
     """Return all readings with their D50, in one line."""
-    unit = f", unit: {declared.unit}" if declared.scale_of_openings == "size" else ""
-    own = f"as {'declared' if declared.values or declared.openings else 'by default'} "
-    own += f"({declared.keys(_KEYS)}{unit})"
+    own = _own(declared)
     if curve.problems:
         own += f" it cannot be read ({curve.problems[0]})"
     else:
         own += f" D50 = {_shown(curve.rows, declared.unit)}"
-    read = []
-    for other in others:
-        keys = other.keys(_KEYS)
-        keys += f", unit: {other.unit}" if other.unit != declared.unit else ""
-        rows = sieve_curve(table, other).rows
-        read.append(f"as `{keys}` D50 = {_shown(rows, other.unit)}")
     what = "; ".join(against)
-    if not read:
+    if not others:
         return (
             f"the file and the keys disagree: {what}; {own}, and as the words say it cannot be: "
             "correct the words or the keys"
         )
+    read, asked = [], set()
+    for other in others:
+        keys = {key: other.taken(key) for key in _KEYS}
+        keys |= {"unit": other.unit} if other.unit != declared.unit else {}
+        rows = sieve_curve(table, other).rows
+        ends = _ends(rows, declared)
+        asked |= set(ends.values())
+        read.append(f"as `{declared.advice({**keys, **ends})}` D50 = {_shown(rows, other.unit)}")
+    keep, ends = _correct(table, declared, curve)
     return (
-        f"the file and the keys disagree: {what}. Read {own}; read {'; '.join(read)}. Paste the "
-        "keys that are meant into the grading" + _correct(table, declared, own)
+        f"the file and the keys disagree: {what}. Read {own}; read {'; '.join(read)}. "
+        f"{_to_do(declared, asked | set(ends.values()), others)}{keep}"
     )
 
 
-def _correct(table, declared, own):
-    """Return how to keep what is declared, if it can be kept."""
-    if "cannot" in own:
-        return ""
+def _own(declared):
+    """Return how the table would be read, and which of it was declared."""
+    given = tuple(key for key in _KEYS if getattr(declared, key))
+    taken = tuple(key for key in _KEYS if key not in given)
+    own = " and ".join(
+        f"{how} ({declared.keys(keys)})"
+        for how, keys in (("as declared", given), ("as by default", taken))
+        if keys
+    )
+    return f"{own}, in {declared.unit}," if declared.scale_of_openings == "size" else own
+
+
+def _ends(rows, declared):
+    """Return which ends of a curve a command has to give, with words in place of the sizes."""
+    if declared.typed is None:
+        return {}
+    low = rows[0].values[1] > 0 and declared.smallest is None
+    high = rows[-1].values[1] < 100 and declared.largest is None
+    return ({"min": "SMALLEST"} if low else {}) | ({"max": "LARGEST"} if high else {})
+
+
+def _to_do(declared, asked, others):
+    """Return what to do with the reading that is meant."""
+    if declared.typed is None:
+        return "Paste the keys that are meant into the grading"
+    units = {other.unit for other in others}
+    unit = units.pop() if len(units) == 1 else "its unit"
+    sizes = " and ".join(
+        f"the size of the {word.lower()} grain in {unit} for {word}" for word in sorted(asked)
+    )
+    return "Type the command that is meant" + (f", with {sizes}" if asked else "")
+
+
+def _correct(table, declared, curve):
+    """Return how to keep what is declared, if it can be kept, and which ends that asks for."""
+    if curve.problems:
+        return "", {}
     if table.words.openings() or table.words.values() or table.words.units():
-        return ", or, if these are the wrong words, correct them in the file"
-    return f", or `{declared.keys(_KEYS)}` to read it so"
+        return ", or, if these are the wrong words, correct them in the file", {}
+    ends = _ends(curve.rows, declared)
+    keys = {key: declared.taken(key) for key in _KEYS}
+    return f", or `{declared.advice({**keys, **ends})}` to read it so", ends
 
 
 def _shown(rows: list[Row], unit: str) -> str:

@@ -36,7 +36,7 @@ class Representativity:
 
     @property
     def edge_over_diameter(self) -> float:
-        """Edge of the box over the largest diameter [-]."""
+        """Edge of the box over the largest diameter, D99.9 [-]."""
         return self.box_edge / self.largest_diameter
 
 

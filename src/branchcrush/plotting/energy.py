@@ -35,7 +35,8 @@ def plot_energy_split(table: Table, fit: EnergySplitFit, ax: Axes | None = None)
     x = table["branch_length_m"] / fit.reference_length
     line = np.linspace(0.0, x.max() * 1.03, 200)
     n = fit.exponent
-    if np.isfinite(n.low):
+    # From an interval that reaches below 0 a band would go up to the left, and hide the data.
+    if n.low > 0:
         ax.fill_between(line, line**n.low, line**n.high, color=MODEL, alpha=0.2, lw=0)
     text = f"$(l/l_r)^n$, n = {interval_text(*n)}"
     ax.plot(line, line**n.estimate, color=MODEL, label=text)

@@ -60,7 +60,8 @@ def plot_preview(
     Parameters
     ----------
     grading : mapping of ndarray
-        `diameter_m` and columns percent_finer_... as of `grading.csv`; what it lacks is not drawn.
+        `diameter_m` and the columns of percent finer as of `grading.csv`; what it lacks is not
+        drawn.
     unit : str
         Of the diameters, as the user gave it; m is shown as mm or µm.
     drawn : str

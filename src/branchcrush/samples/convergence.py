@@ -172,7 +172,7 @@ def convergence_words(table: pd.DataFrame) -> list[str]:
     judged = table[table["verdict"] != ""]
     return [
         f"{_WORDS[row.quantity]}: {row.verdict}, {_change(row)} with twice the strain steps "
-        f"({_number_of(row)}); {_amount(row, row.tolerance)} is allowed, "
+        f"({_number_of(row)}): {_at_most(row)}{_amount(row, row.tolerance)} is allowed, "
         f"{_least_seen(row)} could be seen"
         for row in judged.itertuples()
     ]
@@ -229,8 +229,14 @@ def _amount(row, amount, sign=""):
 
 def _number_of(row):
     if row.compared_by == "pairs":
-        return f"{row.seeds} {'pair' if row.seeds == 1 else 'pairs'} of one seed, 95 % interval"
+        return f"{row.seeds} {'seed' if row.seeds == 1 else 'seeds'}, each run twice, 95 % interval"
     return f"{row.seeds} packings against {row.seeds_at_twice_the_steps}, unpaired, 95 % interval"
+
+
+def _at_most(row):
+    if np.isnan(row.could_see):
+        return ""
+    return f"as much as {_amount(row, abs(row.difference) + row.could_see)}, "
 
 
 def _least_seen(row):

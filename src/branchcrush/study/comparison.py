@@ -28,6 +28,7 @@ def comparison_row(
     return {
         "sample": name,
         "verdict": certificate["verdict"],
+        "verdict_reasons": "; ".join(certificate["reasons"]) or None,
         **fit.exponent.named("exponent"),
         "confidence": fit.confidence,
         "seeds": certificate["seeds"],

@@ -59,6 +59,7 @@ class Plan(NamedTuple):
     gap: float  # between the drawn and the asked sieve curve, the largest [%]
     first_edge: float  # [m]
     last_edge: float  # [m]
+    edge_over_diameter: float  # last edge over D99.9, as warned of [-]
     states: int
     overlap: float  # at the largest stress, over the radius; 0 of strains [-]
     force_evaluations: float  # of one packing
@@ -154,6 +155,7 @@ def sample_plan(
         gap=realised_gap(grading, radii),
         first_edge=(solid / sample.initial_solid_fraction) ** (1.0 / 3.0),
         last_edge=(solid / sample.end) ** (1.0 / 3.0),
+        edge_over_diameter=standing.edge_over_diameter,
         states=states,
         overlap=overlap,
         force_evaluations=evaluations,

@@ -188,10 +188,10 @@ def _fits(plan: Plan) -> list[str]:
 
 def _box(plan: Plan) -> str:
     unit, metres = plan.unit
-    largest = plan.last_edge / plan.asked.by_mass[-1]
     return (
         f"edge {_number(plan.first_edge / metres)} {unit}, at the end about "
-        f"{_number(plan.last_edge / metres)} {unit} ({largest:.3g} largest diameters)"
+        f"{_number(plan.last_edge / metres)} {unit}, "
+        f"{plan.edge_over_diameter:.3g} largest diameters (D99.9)"
     )
 
 

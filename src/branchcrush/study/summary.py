@@ -41,6 +41,8 @@ def _sample_line(row: Mapping[str, str]) -> str:
     name = f"{row['sample']}: {row['verdict']}"
     if not row["exponent"]:
         return f"{name}, no exponent: {row['reason']}"
+    if reasons := row.get("verdict_reasons"):  # a table of an earlier version has none
+        name += f" ({reasons})"
     exponent = f"n = {float(row['exponent']):.2f}"
     if row["exponent_low"]:
         low, high, confidence = (

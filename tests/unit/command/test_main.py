@@ -1,5 +1,6 @@
 """The console command as a user types it: what it prints, and its exit codes."""
 
+import shlex
 import subprocess
 import sys
 
@@ -8,6 +9,7 @@ import pytest
 from branchcrush.command.main import main
 
 SIEVES = "opening [mm],percent passing\n2,100\n1,60\n0.5,20\n0.25,0\n"
+HISTOGRAM = "--form histogram --basis mass --size diameter --sizes edges --scale linear"
 STUDY = """\
 samples:
   mine:
@@ -99,16 +101,88 @@ def test_the_sketch_rises_from_the_finest_to_the_coarsest_grain(folder, capsys):
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ("soil.csv", "grading.unit: missing"),
+        ("wordless.csv", "grading.unit: missing"),
+        ("two_units.csv", "grading.unit: missing"),
         ("soil.csv --unit um --form histogram", "grading.sizes: missing"),
         ("--form lognormal --basis mass --size diameter --unit um --d50 200", "two or three of"),
     ],
 )
 def test_what_is_wrong_or_missing_is_a_line_and_no_traceback(folder, capsys, keys, words):
+    (folder / "wordless.csv").write_text("2,100\n1,60\n0.5,0\n")
+    (folder / "two_units.csv").write_text("cm (mm),passing\n2,100\n1,60\n0.5,0\n")
     code, out, err = printed(capsys, "grading", *keys.split())
     assert code == 1 and out == ""
     assert words in err
     assert all(line.startswith("error: ") for line in err.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("content", "form", "unit", "median"),
+    [
+        ("Siebweite [mm];Durchgang [%]\n2,0;100\n1,0;50\n0,5;0\n", "", "mm", "D50 1,"),
+        ("µm,finer\n500,50\n63,0\n2000,100\n", "", "um", "D50 500,"),
+        # Of 1, 8 and 27 mm3 the median of the mass is in the largest.
+        ("D [mm]\n1\n2\n3\n", "--form radii --size diameter", "mm", "D50 3,"),
+        ("mm;mass %\n1;50\n2;50\n4;\n", HISTOGRAM, "mm", "D50 2,"),
+    ],
+)
+def test_the_unit_that_a_header_gives_is_taken_told_and_among_the_lines_to_paste(
+    folder, capsys, content, form, unit, median
+):
+    (folder / "de.csv").write_text(content, encoding="utf-8")
+    code, out, err = printed(capsys, "grading", "de.csv", *form.split())
+    assert (code, err) == (0, "")
+    assert f"read as: unit: {unit}, by the header\n" in out and median in out
+    assert f"      unit: {unit}\n" in out.split("to paste below a sample:\n")[1]
+    # What is typed is not the header's.
+    _, out, _ = printed(capsys, "grading", "de.csv", *form.split(), "--unit", unit)
+    assert "by the header" not in out
+
+
+def test_words_of_phi_are_answered_before_a_unit_is_asked_for(folder, capsys):
+    (folder / "beach.csv").write_text("phi,cum. coarser\n1,0\n2,50\n4,100\n")
+    code, _, err = printed(capsys, "grading", "beach.csv")
+    assert code == 1 and "missing" not in err
+    command = "branchcrush grading beach.csv --values percent_coarser --openings phi"
+    assert f"`{command}` D50 = 0.25 mm" in err
+    # What is advised is all that is asked for.
+    code, out, _ = printed(capsys, *command.split()[1:])
+    assert code == 0 and "D50 0.25," in out
+
+
+def test_a_typed_unit_is_no_default(folder, capsys):
+    (folder / "beach.csv").write_text("phi,finer\n4,0\n2,50\n1,100\n")
+    _, _, err = printed(capsys, "grading", "beach.csv", "--unit", "um")
+    assert "Read as by default (values: percent_finer, openings: size), in um," in err
+
+
+def test_nothing_is_to_be_looked_at_where_the_words_agree(folder, capsys):
+    for content, asked in ((SIEVES, []), ("2,100\n1,60\n0.5,0\n", ["openings", "values"])):
+        (folder / "soil.csv").write_text(content)
+        _, out, _ = printed(capsys, "grading", "soil.csv", "--unit", "mm")
+        looked = [line.split()[3] for line in out.splitlines() if line.startswith("worth a look")]
+        assert looked == asked
+
+
+def test_a_refusal_names_the_command_that_reads_the_table(folder, capsys):
+    # A twentieth is in the pan: percent retained of five rows sum to 100.
+    (folder / "my sand.csv").write_text("4,0\n2,10\n1,50\n0.5,35\npan,5\n")
+    code, _, err = printed(capsys, "grading", "my sand.csv", "--unit", "mm")
+    command = "branchcrush grading 'my sand.csv' --unit mm --values percent_retained"
+    command += " --openings size --min SMALLEST"
+    assert code == 1 and f"`{command}` D50 = " in err and "Paste" not in err
+    assert "is meant, with the size of the smallest grain in mm for SMALLEST" in err
+    code, _, err = printed(capsys, *shlex.split(command.replace("SMALLEST", "0.1"))[1:])
+    assert (code, err) == (0, "")
+
+
+def test_a_refusal_of_channels_names_commands_without_keys_of_the_other_form(folder, capsys):
+    keys = "--form density --size diameter --basis volume --per size"
+    (folder / "laser.csv").write_text("lower um;dQ3/dlog\n1;10\n2;40\n4;40\n8;10\n")
+    _, _, err = printed(capsys, "grading", "laser.csv", *keys.split())
+    commands = [words for words in err.split("`") if words.startswith("branchcrush ")]
+    assert "Type the command that is meant, or correct" in err and len(commands) > 2
+    assert all("--per" not in words for words in commands if "histogram" in words)
 
 
 def test_an_unknown_word_is_a_usage_error(folder, capsys):
@@ -132,7 +206,16 @@ def test_a_sound_study_is_said_to_be(folder, capsys, place):
     study(folder, 500)
     code, out, err = printed(capsys, "check", *place)
     assert (code, err) == (0, "")
-    assert out.startswith("mine: uniform, 500 grains, 2 packings\nsound: ")
+    assert out.startswith("mine: uniform, 500 grains, 2 packings\nsound: branchcrush preview tells")
+    assert "--directory" not in out
+
+
+def test_the_commands_of_a_sound_study_name_its_folder(folder, capsys, monkeypatch):
+    study(folder, 500)
+    monkeypatch.chdir(folder.parent)
+    _, out, _ = printed(capsys, "check", folder.name)
+    assert f"sound: branchcrush preview {folder.name} tells" in out
+    assert f"snakemake --cores 2 --directory {folder.name} runs it" in out
 
 
 def test_all_problems_are_named_at_once(folder, capsys):
@@ -168,6 +251,16 @@ def test_files_are_relative_to_the_folder_of_the_study(folder, capsys, monkeypat
     (folder / "elsewhere").mkdir()
     monkeypatch.chdir(folder / "elsewhere")
     assert printed(capsys, "check", "..")[0] == 0
+
+
+def test_a_configuration_has_to_say_its_unit_whatever_the_header_says(folder, capsys):
+    sieve = "{form: sieve, basis: mass, size: diameter, file: soil.csv}"
+    (folder / "config.yaml").write_text(
+        f"samples: {{mine: {{grading: {sieve}, grains: 500, seeds: 2, "
+        "loading: {edge_reduction: 0.4, quality: draft}}}\n"
+    )
+    code, _, err = printed(capsys, "check")
+    assert code == 1 and "samples.mine.grading.unit: missing" in err
 
 
 # --- preview -------------------------------------------------------------------------------------

@@ -260,11 +260,11 @@ def test_words_say_what_changes_what_is_allowed_and_what_could_be_seen():
     ]
     assert words[0] == (
         "n: not decided, +0.25 ± 0.32 with twice the strain steps (4 packings against 2, "
-        "unpaired, 95 % interval); 0.10 is allowed, 0.32 could be seen"
+        "unpaired, 95 % interval): as much as 0.57, 0.10 is allowed, 0.32 could be seen"
     )
     assert words[1] == (
-        "mean stress: not decided, +13.3 % ± 84.7 % with twice the strain steps (2 pairs of one "
-        "seed, 95 % interval); 5.0 % is allowed, 84.7 % could be seen"
+        "mean stress: not decided, +13.3 % ± 84.7 % with twice the strain steps (2 seeds, each "
+        "run twice, 95 % interval): as much as 98.0 %, 5.0 % is allowed, 84.7 % could be seen"
     )
     assert words[4].startswith("φ_J: converged, +0.0030 ± 0.0000 with")
 
@@ -273,6 +273,6 @@ def test_words_of_one_pair_say_that_nothing_could_be_seen():
     once, twice = packings((1,)), packings((1,), elastic_energy_J=[1.01])
     words = convergence_words(convergence_table(once, twice, [3.0], [3.0]))
     assert words[2] == (
-        "elastic energy: not decided, +1.0 % with twice the strain steps (1 pair of one seed, "
-        "95 % interval); 5.0 % is allowed, nothing could be seen"
+        "elastic energy: not decided, +1.0 % with twice the strain steps (1 seed, each run twice, "
+        "95 % interval): 5.0 % is allowed, nothing could be seen"
     )

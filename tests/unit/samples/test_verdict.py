@@ -315,8 +315,9 @@ def test_rule_withholds_the_certificate_where_the_exponent_changes():
 def test_rule_withholds_the_certificate_where_the_stress_of_the_pairs_changes():
     _, certificate = rule_on(True, stress=1.2e6)
     assert certificate["reasons"] == [
-        "mean stress: not converged, +20.0 % ± 0.0 % with twice the strain steps (2 pairs of one "
-        "seed, 95 % interval); 5.0 % is allowed, 0.0 % could be seen: raise loading.quality"
+        "mean stress: not converged, +20.0 % ± 0.0 % with twice the strain steps (2 seeds, each "
+        "run twice, 95 % interval): as much as 20.0 %, 5.0 % is allowed, 0.0 % could be seen: "
+        "raise loading.quality"
     ]
 
 

@@ -7,6 +7,7 @@ from branchcrush.study.comparison import comparison_row
 
 CERTIFICATE = {
     "verdict": "certified with notes",
+    "reasons": [],
     "seeds": 4,
     "seeds_certified": 3,
     "jamming_solid_fraction": 0.63,
@@ -18,6 +19,7 @@ CERTIFICATE = {
 EXPECTED = {
     "sample": "paper",
     "verdict": "certified with notes",
+    "verdict_reasons": None,
     "exponent": 3.0,
     "exponent_low": 2.9,
     "exponent_high": 3.1,
@@ -63,3 +65,9 @@ def test_row_with_an_exponent_but_no_model_says_why_there_is_no_theta(sample):
     row = comparison_row("paper", sample().fit, {"reason": "no elastic law"}, CERTIFICATE)
     assert (row["exponent"], row["theta"]) == (pytest.approx(3.0), None)
     assert row["reason"] == "no elastic law"
+
+
+def test_what_takes_the_certificate_away_is_told_beside_the_verdict():
+    withheld = {**CERTIFICATE, "verdict": "not certified", "reasons": ["too few", "too fast"]}
+    row = comparison_row("paper", EnergySplitFit.read({"reason": "no load"}), {}, withheld)
+    assert row["verdict_reasons"] == "too few; too fast" and row["reason"] == "no load"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from branchcrush.gradings.forms import uniform
-from branchcrush.gradings.mixtures import single
+from branchcrush.gradings.mixtures import mixture, single
 from branchcrush.gradings.size_fits import fit_sizes
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
@@ -80,6 +80,15 @@ def test_sizes_are_in_the_unit_of_the_user(unit, expected):
     # (1000 * 4/3 pi mm3 / 0.16)^(1/3) = 29.69 mm, which a strain of 0.4 makes 17.8 mm.
     edges = [float(f"{edge / unit[1]:.3g}") for edge in (29.6933e-3, 17.816e-3)]
     assert f"edge {edges[0]:g} {unit[0]}, at the end about {edges[1]:g} {unit[0]}" in text
+
+
+def test_box_and_warning_have_one_measure_of_the_largest_diameter():
+    # 0.05 % of the mass are twice as large: D99.9 is 2 mm, the maximum 4 mm, and <R^3>
+    # 1/(0.9995 + 0.0005/8) mm3. So the cube of 100 grains has 8.2707 mm at phi = 0.7407.
+    tail = mixture([single(1e-3), single(2e-3)], [0.9995, 0.0005], "mass")
+    text = words(written(plan_of(grading=tail, grains=100)))
+    assert "at the end about 8.27 mm, 4.14 largest diameters (D99.9)" in text
+    assert "make a box of 4.14 largest diameters" in text
 
 
 def test_stresses_are_told_with_the_overlaps_they_lead_to():

@@ -49,6 +49,11 @@ def test_sample_without_data_says_why(written):
     assert lines[1] == "loose: not certified, no exponent: no load"
 
 
+def test_what_takes_the_certificate_away_stands_behind_the_verdict(written):
+    row = {**ROW, "verdict": "not certified", "verdict_reasons": "the stress has not converged"}
+    assert written(row)[0].startswith("paper: not certified (the stress has not converged), n = ")
+
+
 def test_model_without_data_leaves_the_exponent(written):
     assert "n = 3.11" in written({**ROW, "reason": "no elastic law"})[0]
 
