@@ -73,6 +73,8 @@ def test_the_findings_are_those_of_the_sample(finished, sample):
     row = read_table(results / "findings.csv").iloc[0]
     fit = read_json(sample / "energy_split.json")
     assert row["exponent_at_end"] == fit["exponent"]
+    certificate = read_json(sample / "certificate.json")
+    assert row["verdict"] == certificate["verdict"]
     assert row["best_predictor_end"] in PREDICTORS[:4]
     states = read_table(results / "coordination.csv")
     assert set(states["seed_number"]) == {0, 1}

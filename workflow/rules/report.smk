@@ -147,6 +147,7 @@ rule findings:
         states=expand("results/{sample}/coordination.csv", sample=SAMPLES),
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
+        certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
         rows=study_table(
             "findings", "a row for each sample: exponents, predictors, shielding, forces"

@@ -97,7 +97,8 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     Examples
     --------
     >>> import pandas as pd
-    >>> rows = pd.DataFrame({"sample": ["sand"], "exponent_at_end": [float("nan")]})
+    >>> row = {"sample": "sand", "verdict": "not certified", "exponent_at_end": float("nan")}
+    >>> rows = pd.DataFrame([row])
     >>> render_findings("{{ rows | length }} sample, {{ verdicts.known | length }} known", rows, {})
     '1 sample, 0 known'
     """

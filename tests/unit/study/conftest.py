@@ -155,7 +155,16 @@ def states_of(prefactor=8.0):
 def sample():
     """Return a function that makes the results of a sample."""
 
-    def make(name="one", *, n=(3.0, 2.9, 3.1), parking=0.03, exponents=None, **claims):
+    def make(
+        name="one",
+        *,
+        n=(3.0, 2.9, 3.1),
+        parking=0.03,
+        exponents=None,
+        verdict="certified",
+        **claims,
+    ):
+        reasons = ["seed 2: stopped"] if verdict == "not certified" else []
         return SampleResults(
             name=name,
             kind=SampleKind("walls", "hertz", {"form": "single"}),
@@ -163,6 +172,7 @@ def sample():
             # The two states give different answers: 0.3 is bad.
             numbers={"near_jamming": touching(parking, 0.05), "end": touching(parking + 0.3)},
             shared={"near_jamming": shared(shift=0.3), "end": shared(**claims)},
+            certificate={"verdict": verdict, "reasons": reasons},
             path=path_of() if exponents is None else path_of(exponents),
             states=states_of(),
         )
