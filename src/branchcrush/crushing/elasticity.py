@@ -29,6 +29,12 @@ class Elasticity(Protocol):
     def strain_at_energy(self, energy: ArrayLike) -> NDArray:
         """Return the strain at an energy [J/m3]; the onset at zero energy."""
 
+    def strain_at_pressure(self, pressure: ArrayLike) -> NDArray:
+        """Return the strain at a pressure [Pa]; the onset at none."""
+
+    def stiffness(self, strain: ArrayLike) -> NDArray:
+        """Return dp_0/deps [Pa]."""
+
 
 @dataclass(frozen=True)
 class PowerLawElasticity:
@@ -113,6 +119,40 @@ class PowerLawElasticity:
         """
         beyond = np.multiply(energy, (self.exponent + 1) / self.modulus)
         return self.onset_strain + beyond ** (1 / (self.exponent + 1))
+
+    def strain_at_pressure(self, pressure: ArrayLike) -> NDArray:
+        """Return the strain at a pressure.
+
+        Parameters
+        ----------
+        pressure : array_like
+            p_0, any shape, 0 or more [Pa].
+
+        Returns
+        -------
+        ndarray
+            eps [-]; the onset at none.
+        """
+        return self.onset_strain + np.divide(pressure, self.modulus) ** (1 / self.exponent)
+
+    def stiffness(self, strain: ArrayLike) -> NDArray:
+        r"""Return the stiffness at a strain.
+
+        .. math:: m A\, \langle \epsilon - \epsilon_J \rangle^{m-1}
+
+        Parameters
+        ----------
+        strain : array_like
+            eps, any shape [-].
+
+        Returns
+        -------
+        ndarray
+            dp_0/deps [Pa]; 0 up to the onset.
+        """
+        beyond = np.subtract(strain, self.onset_strain)
+        loaded = np.where(beyond > 0, beyond, 1.0) ** (self.exponent - 1)
+        return np.where(beyond > 0, self.modulus * self.exponent * loaded, 0.0)
 
 
 def fit_elasticity(

@@ -14,6 +14,7 @@ def from_percent_finer(
     percent: ArrayLike,
     radius_min: float | None = None,
     radius_max: float | None = None,
+    straight: bool = False,
 ) -> Grading:
     r"""Return the grading of a sieve curve, drawn through its points without overshooting.
 
@@ -30,6 +31,8 @@ def from_percent_finer(
         Percent finer by mass, nowhere falling [%]. From 0 to 100, unless cut before it ends.
     radius_min, radius_max : float, optional
         Grains below the one and above the other are left out, and the rest is 100 % [m].
+    straight : bool
+        Straight lines between the points, on the usual chart of ln R, in place of the cubic.
 
     Returns
     -------
@@ -70,9 +73,12 @@ def from_percent_finer(
             f"the curve is {percent[0]:g} percent throughout: give it a second value"
         )
     radius, percent = radius[first : last + 1], percent[first : last + 1]
-    from scipy.interpolate import PchipInterpolator  # slow to import, for sieve tables alone
+    # Slow to import, for sieve tables alone.
+    from scipy.interpolate import PchipInterpolator, make_interp_spline
 
-    slope = PchipInterpolator(np.log(radius), percent / 100).derivative()
+    points = np.log(radius), percent / 100
+    curve = make_interp_spline(*points, k=1) if straight else PchipInterpolator(*points)
+    slope = curve.derivative()
 
     def density_by_mass(r: NDArray) -> NDArray:
         # A level part must not come out below 0 by rounding.

@@ -1,0 +1,191 @@
+"""What holds crushing back: when C may grow, for every form of the model.
+
+A resistance says at which elastic strain the grains of a grading begin to crush further.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from branchcrush.crushing.curves import UNCHANGED, Curve
+from branchcrush.crushing.elasticity import Elasticity
+from branchcrush.crushing.forms import ModelForm
+
+# Where a yield strain is sought: elastic strains that no contact law is meant to leave.
+_LEAST, LARGEST = 1e-8, 0.5
+_STEPS = 161
+
+
+class Resistance(Protocol):
+    """A condition for C to grow; strains and C are of any shape."""
+
+    def excess(
+        self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return a number that is above 0 where C grows at a total strain, and 0 on its limit."""
+
+    def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
+        """Return the least elastic strain at which C grows [-]; infinite where it never does."""
+
+
+@dataclass(frozen=True)
+class CriticalEnergy:
+    r"""Crushing begins where the energy that it sets free reaches a critical one.
+
+    .. math:: E_C = \frac{E_{c0}}{(1 - C)^s}
+
+    s = 2 is Einav's (1 - C)^2 E_C = E_c0, and s = 0 a constant.
+
+    Parameters
+    ----------
+    energy : float
+        E_c0, above 0 [J/m3].
+    hardening : float
+        s, 0 or more [-].
+
+    Raises
+    ------
+    ValueError
+        For values outside of these.
+
+    Examples
+    --------
+    >>> from branchcrush.crushing.curves import LinearCurve
+    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
+    >>> paper, law = ModelForm(LinearCurve(0.5)), PowerLawElasticity(2.0, 1.0)
+    >>> float(CriticalEnergy(0.005, 2.0).yield_strain(0.0, paper, law).round(12))
+    0.1
+    """
+
+    energy: float
+    hardening: float
+
+    def __post_init__(self) -> None:
+        if not (0 < self.energy < np.inf and 0 <= self.hardening < np.inf):
+            raise ValueError(f"critical energy above 0 and hardening from 0 on, finite: {self}")
+
+    def resistance(self, crushing: ArrayLike) -> NDArray:
+        """Return E_c at C.
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape, below 1 [-].
+
+        Returns
+        -------
+        ndarray
+            [J/m3]
+        """
+        return self.energy / np.subtract(1.0, crushing) ** self.hardening
+
+    def excess(
+        self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        r"""Return by how much the driving force is above the resistance.
+
+        .. math:: E_C\, (1 - C)^s / E_{c0} - 1
+
+        Parameters
+        ----------
+        strain, crushing : array_like
+            eps, total, and C, any shape [-].
+        form : ModelForm
+        elasticity : Elasticity
+
+        Returns
+        -------
+        ndarray
+            [-]
+        """
+        force = form.driving_force(strain, crushing, elasticity)
+        return force * np.subtract(1.0, crushing) ** self.hardening / self.energy - 1.0
+
+    def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
+        """Return the least elastic strain at which C grows.
+
+        Parameters
+        ----------
+        crushing : array_like
+            C, any shape, below 1 [-].
+        form : ModelForm
+        elasticity : Elasticity
+
+        Returns
+        -------
+        ndarray
+            eps_e [-]; infinite where the driving force stays too small up to 0.5.
+        """
+        from scipy.optimize.elementwise import find_root  # slow to import, and few jobs need it
+
+        crushing = np.asarray(crushing, float)
+        at = crushing.reshape(-1, 1)
+        steps = np.geomspace(_LEAST, LARGEST, _STEPS)
+
+        def excess(elastic: NDArray, at: NDArray) -> NDArray:
+            return self.excess(form.total_strain(elastic, at), at, form, elasticity)
+
+        above = excess(steps, at) > 0.0
+        yields = above.any(axis=1)
+        first = np.maximum(above.argmax(axis=1)[yields], 1)
+        result = np.full(at.size, np.inf)
+        if yields.any():
+            ends = steps[first - 1], steps[first]
+            tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+            found = find_root(excess, ends, args=(at[yields, 0],), tolerances=tolerances)
+            result[yields] = found.x
+        return result.reshape(crushing.shape)
+
+
+@dataclass(frozen=True)
+class ElasticStrainLimit:
+    r"""Crushing holds the elastic strain at a value of its own, as crushing grains do.
+
+    .. math:: \epsilon_e = \epsilon_0\, \left(\frac{d_Q}{d_{Q0}}\right)^x
+
+    x = 1 - b with a constant stiffness and -2b/3 with Hertz's contacts, where b is the exponent
+    with which strength falls with size and d_Q the mean diameter of the ends of contacts.
+
+    Parameters
+    ----------
+    strain : float
+        eps_0, from above 0 to 0.5 [-].
+    change : Curve
+        (d_Q/d_Q0)^x [-].
+
+    Raises
+    ------
+    ValueError
+        For a strain outside of these.
+
+    Examples
+    --------
+    >>> from branchcrush.crushing.curves import LinearCurve
+    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
+    >>> any_form, any_law = ModelForm(LinearCurve(0.5)), PowerLawElasticity(2.0, 1.0)
+    >>> limit = ElasticStrainLimit(0.0125, LinearCurve(0.5))
+    >>> limit.yield_strain([0.0, 1.0], any_form, any_law).tolist()
+    [0.0125, 0.00625]
+    """
+
+    strain: float
+    change: Curve = UNCHANGED
+
+    def __post_init__(self) -> None:
+        if not 0 < self.strain <= LARGEST:
+            raise ValueError(f"an elastic strain from 0 to {LARGEST:g}: {self.strain:g}")
+
+    def excess(
+        self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return by how much the elastic strain is above its limit, as `CriticalEnergy.excess`."""
+        return (
+            form.elastic_strain(strain, crushing) / self.yield_strain(crushing, form, elasticity)
+            - 1.0
+        )
+
+    def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
+        """Return the elastic strain at which C grows, as `CriticalEnergy.yield_strain` does."""
+        return self.strain * self.change.value(crushing)

@@ -1,0 +1,127 @@
+"""The load at which each C yields: the line along which crushing goes on."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from branchcrush.crushing.elasticity import Elasticity
+from branchcrush.crushing.forms import ModelForm
+from branchcrush.crushing.resistance import Resistance
+
+Control = Literal["strain", "stress"]
+
+# How often the rest up to C = 1 is halved: powers of 1 - C are smooth on each piece.
+_HALVINGS = 40
+# Places on each smooth piece at which the yield line is looked at.
+_LOOKS = 17
+
+
+class YieldLine:
+    """The load at which each C yields, from C = 0 to where crushing is admissible no more.
+
+    Parameters
+    ----------
+    form : ModelForm
+    elasticity : Elasticity
+    resistance : Resistance
+    control : {"strain", "stress"}
+        What a load is: a total strain [-], or a stress [Pa].
+
+    Attributes
+    ----------
+    pieces : ndarray
+        C between which the line is smooth [-].
+    looks, loads : ndarray
+        C on every piece, and the loads at which they yield; infinite where one never does.
+    """
+
+    def __init__(
+        self,
+        form: ModelForm,
+        elasticity: Elasticity,
+        resistance: Resistance,
+        control: Control = "strain",
+    ) -> None:
+        self.form, self.elasticity = form, elasticity
+        self.resistance, self.control = resistance, control
+        knots = form.knots
+        rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
+        self.pieces = np.union1d(knots, rest[rest < knots[-1]])
+        if knots[-1] == 1.0:  # there a resistance may be infinite
+            self.pieces = self.pieces[:-1]
+        self.looks = self._places()
+        end = self._last_admissible()
+        if end < self.pieces[-1]:
+            self.pieces = np.append(self.pieces[self.pieces < end], end)
+            self.looks = self._places()
+        self.loads = self.load_at(self.looks)
+
+    def _places(self) -> NDArray:
+        inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
+        looks = self.pieces[:-1, None] + np.diff(self.pieces)[:, None] * inner
+        return np.append(looks.ravel(), self.pieces[-1])
+
+    def _last_admissible(self) -> float:
+        """Return the C up to which crushing sets energy free on the yield line."""
+        from scipy.optimize import brentq  # slow to import, and few jobs need it
+
+        def force(crushing: ArrayLike) -> NDArray:
+            strain = self.strain_at(crushing)
+            loaded = np.where(np.isfinite(strain), strain, 0.0)
+            return self.form.driving_force(loaded, crushing, self.elasticity)
+
+        costs = np.flatnonzero(force(self.looks) < 0.0)
+        if not costs.size:
+            return self.looks[-1]
+        first = costs[0]
+        if first == 0:
+            return self.looks[0]
+        return brentq(lambda at: float(force(at)), *self.looks[first - 1 : first + 1], xtol=1e-14)
+
+    def strain_at(self, crushing: ArrayLike) -> NDArray:
+        """Return the total strain at which each C yields."""
+        elastic = self.resistance.yield_strain(crushing, self.form, self.elasticity)
+        reachable = np.where(np.isfinite(elastic), elastic, 0.0)
+        strain = self.form.total_strain(reachable, crushing)
+        return np.where(np.isfinite(elastic), strain, np.inf)
+
+    def load_at(self, crushing: ArrayLike) -> NDArray:
+        """Return the strain or stress at which each C yields."""
+        strain = self.strain_at(crushing)
+        if self.control == "strain":
+            return strain
+        stress = self.form.stress(np.minimum(strain, 1.0), crushing, self.elasticity)
+        return np.where(np.isfinite(strain), stress, np.inf)
+
+    def strain_under(self, load: float, crushing: ArrayLike) -> NDArray:
+        """Return the total strain under a load at each C."""
+        if self.control == "strain":
+            return np.broadcast_to(load, np.shape(crushing)).astype(float)
+        elastic = self.elasticity.strain_at_pressure(load / self.form.factor.value(crushing))
+        return self.form.total_strain(elastic, crushing)
+
+    def holding(self, load: float, low: float, high: float) -> float:
+        """Return the C between two that yields at a load; `high` holds it and `low` does not."""
+        from scipy.optimize import brentq  # slow to import, and few jobs need it
+
+        def excess(crushing: float) -> float:
+            strain = self.strain_under(load, crushing)
+            return float(self.resistance.excess(strain, crushing, self.form, self.elasticity))
+
+        if excess(low) <= 0.0:
+            return float(low)
+        return (
+            float(high)
+            if excess(high) >= 0.0
+            else brentq(excess, low, high, xtol=1e-15, rtol=1e-15)
+        )
+
+    def top(self, low: float, high: float) -> float:
+        """Return the C between two at which the yield line is highest."""
+        from scipy.optimize import minimize_scalar  # slow to import, and few jobs need it
+
+        bounds = {"bounds": (low, high), "method": "bounded", "options": {"xatol": 1e-10}}
+        best = minimize_scalar(lambda crushing: -float(self.load_at(crushing)), **bounds).x
+        ends = np.array([low, best, high])
+        return float(ends[np.argmax(self.load_at(ends))])
