@@ -67,6 +67,7 @@ rule fit_figures:
         split="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",
         split_path="results/{sample}/energy_split_path.csv",
+        ratio="results/{sample}/energy_split_ratio.csv",
         lengths="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
         curves="results/{sample}/thermodynamics.csv",

@@ -112,6 +112,9 @@ def _split(state: StateFit, where: str) -> dict[str, Any]:
     for name in ("branch_length", "reduced_radius"):
         if name in known:
             row |= _at(where, known[name].parameters["exponent"], f"exponent_of_{name}")
+    if "length_and_ratio" in known:
+        for name, value in known["length_and_ratio"].parameters.items():
+            row |= _at(where, value, name)
     return {**row, f"best_predictor_{where}": _best(known.values())}
 
 
