@@ -48,7 +48,7 @@ def radius_ratio_table(
     --------
     >>> small, large = np.log([0.5, 0.25]), np.log([0.5, 0.75])  # one length, two ratios
     >>> table = radius_ratio_table([(small, large, np.array([8.0, 4.0]))] * 2, 3.0, 2.0)
-    >>> table["g"][[3, -1]].tolist(), table["g_fitted"][[3, -1]].round(9).tolist()
+    >>> table["g"][[4, -1]].round(9).tolist(), table["g_fitted"][[4, -1]].round(9).tolist()
     ([0.5, 1.0], [0.5625, 1.0])
     """
     bins = RADIUS_RATIOS.size - 1

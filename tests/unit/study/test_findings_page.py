@@ -107,7 +107,7 @@ def test_what_is_not_certified_is_shown_named_and_not_counted(page, sample):
     assert "it holds 3 in 2 (good, noted). A power law" in text
     assert "contradicted, by the curvature of ln E in ln l at the end, in 2 of 2." in text
     assert "in 2 of 2 certified samples; Einav" in text
-    assert "Best of the four: reduced radius in 2 (good, noted)." in text
+    assert "Best of the five: reduced radius in 2 (good, noted)." in text
     assert "in 1 of 2 certified samples (not in noted)." in text
     assert "undecided in" not in text
     # In each table it is there all the same, and marked.
