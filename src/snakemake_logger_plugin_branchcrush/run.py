@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-# Of the packings that run a second time with twice the strain steps. The same as in config.schema,
+# Of the packings that run a second time with twice the strain steps. The same as in config.names,
 # which is not imported: it imports pydantic, and a screen begins at once.
 REFINED = "-refined"
 _LATEST = 8

@@ -8,7 +8,8 @@ from matplotlib import image
 from branchcrush.files.tables import read_json, read_table
 
 FINDINGS = ("exponents", "lengths", "energies", "coordination", "shielding", "forces")
-PREDICTORS = ["branch_length", "reduced_radius", "both_radii", "grain_size", "surface"]
+RIVALS = ["branch_length", "reduced_radius", "both_radii", "grain_size", "length_and_ratio"]
+PREDICTORS = [*RIVALS, "surface"]
 PREDICTIONS = {
     "configuration",
     "random_contact",
@@ -73,7 +74,9 @@ def test_the_findings_are_those_of_the_sample(finished, sample):
     row = read_table(results / "findings.csv").iloc[0]
     fit = read_json(sample / "energy_split.json")
     assert row["exponent_at_end"] == fit["exponent"]
-    assert row["best_predictor_end"] in PREDICTORS[:4]
+    certificate = read_json(sample / "certificate.json")
+    assert row["verdict"] == certificate["verdict"]
+    assert row["best_predictor_end"] in RIVALS
     states = read_table(results / "coordination.csv")
     assert set(states["seed_number"]) == {0, 1}
     page = (results / "findings.html").read_text(encoding="utf-8")

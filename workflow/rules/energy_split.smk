@@ -12,6 +12,7 @@ rule energy_split:
         table=table("energy_split", "bins of the energy-split function"),
         fit="results/{sample}/energy_split.json",
         path=table("energy_split_path", "the exponent in every certified state"),
+        ratio=table("energy_split_ratio", "energy of branches by the ratio of their radii"),
         record="results/{sample}/made/energy_split.json",
     log:
         "logs/{sample}/energy_split.log",

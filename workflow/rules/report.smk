@@ -67,6 +67,7 @@ rule fit_figures:
         split="results/{sample}/energy_split.csv",
         fit="results/{sample}/energy_split.json",
         split_path="results/{sample}/energy_split_path.csv",
+        ratio="results/{sample}/energy_split_ratio.csv",
         lengths="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
         curves="results/{sample}/thermodynamics.csv",
@@ -147,6 +148,7 @@ rule findings:
         states=expand("results/{sample}/coordination.csv", sample=SAMPLES),
         numbers=expand("results/{sample}/contact_numbers.json", sample=SAMPLES),
         shared=expand("results/{sample}/sharing.json", sample=SAMPLES),
+        certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
     output:
         rows=study_table(
             "findings", "a row for each sample: exponents, predictors, shielding, forces"

@@ -16,10 +16,14 @@ from branchcrush.study.results import SampleResults
 with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
     fits = [EnergySplitFit.read(read_json(path)) for path in files.fits]
-    numbers, shared = ([read_json(path) for path in files[k]] for k in ("numbers", "shared"))
+    numbers, shared, certificates = (
+        [read_json(path) for path in files[k]] for k in ("numbers", "shared", "certificates")
+    )
     paths, states = ([read_table(path) for path in files[k]] for k in ("paths", "states"))
     kinds = map(SampleKind.of, params.samples.values())
-    results = zip(params.samples, kinds, fits, numbers, shared, paths, states, strict=True)
+    results = zip(
+        params.samples, kinds, fits, numbers, shared, certificates, paths, states, strict=True
+    )
     rows = finding_rows([SampleResults(*each) for each in results], **params.intervals)
     origin = study_provenance(params.samples, **params.intervals)
     write_table(output.rows, rows, origin)

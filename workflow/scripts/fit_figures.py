@@ -19,6 +19,6 @@ with recorded_job(snakemake):
     figures.draw_cubic(output.fig6_cubic, dpi, split, fit)
     figures.draw_branch_lengths(output.fig7_branch_lengths, dpi, lengths, statistics, largest)
     figures.draw_exponent_path(output.exponent_path, dpi, read_table(files.split_path), fit)
-    figures.draw_predictors(output.predictors, dpi, fit)
+    figures.draw_predictors(output.predictors, dpi, fit, read_table(files.ratio))
     figures.draw_loading_path(output.loading_path, dpi, paths, model)
     figures.draw_crushing_model(output.crushing_model, dpi, curves, model)

@@ -1,8 +1,8 @@
 """What a study asks for: the configuration, checked in the user's words, and made into objects.
 
 The Snakefile reads the file; `file` says what keeps it from being read, `schema` and `gradings`
-what every key may hold, `checks` what needs the grains, the files and the folder. A mistake is a
-line with the key, its value, and what is allowed (`messages`).
+what every key may hold, `names` what samples may be called, `checks` what needs the grains, the
+files and the folder. A mistake is a line with the key, its value, and what is allowed (`messages`).
 
 - `schema.Config` is the whole configuration, `schema.checked_config` makes it; `Sample.settings`
   are the plain values that rules hand to their jobs. `gradings` has a section for each form,

@@ -11,8 +11,9 @@ from branchcrush.config.build import grading_of, unit_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import shown
+from branchcrush.config.names import REFINED
 from branchcrush.config.sample import number_of_grains
-from branchcrush.config.schema import REFINED, Config, Sample, checked_config
+from branchcrush.config.schema import Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import representativity

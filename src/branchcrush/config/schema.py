@@ -1,7 +1,6 @@
 """The configuration: its keys, types, units, defaults and checks."""
 
-import re
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     AfterValidator,
@@ -28,6 +27,7 @@ from branchcrush.config.fields import (
 )
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.messages import problem
+from branchcrush.config.names import NAMES_SCHEMA, SampleName
 from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
@@ -36,31 +36,12 @@ from branchcrush.loading.targets import (
     strain_step,
 )
 
-# Ends the name of a sample run with twice the strain steps, to judge its convergence.
-REFINED = "-refined"
 _MOST_SEEDS = 1000
 _GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _SEEDS_SCHEMA = WithJsonSchema(
     number_or_list(_SEEDS, Number(least=0, most=2**32 - 1, whole=True), _MOST_SEEDS)
 )
-_LONGEST_NAME = 100
-_NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
-# Files and folders of results that no sample may be called.
-_TAKEN = (
-    "figures",
-    "findings",
-    "made",
-    "comparison.csv",
-    "coordination.csv",
-    "datapackage.json",
-    "exponents.csv",
-    "findings.csv",
-    "findings.html",
-    "report.html",
-    "preview.txt",
-)
-
 
 # In a schema: a list of grains has a number of them.
 _A_LIST = {"properties": {"grading": {"properties": {"form": {"const": "radii"}}}}}
@@ -104,7 +85,9 @@ class Sample(Section):
         examples=[4, [3, 5]],
     )
     refined_seeds: number(int, least=0, most=_MOST_SEEDS) = Field(
-        4, description="How many of the seeds, the first, run again with twice the strain steps."
+        4,
+        description="How many of the seeds, the first, run again with twice the strain steps; no "
+        "more than there are seeds, all of them where there are fewer than the default.",
     )
     ranks: number(int, least=1, most=1024, unit="processes") = Field(
         1,
@@ -177,6 +160,25 @@ class Sample(Section):
             raise refusal(f"must have every seed once; more than once: {which}")
         return seeds
 
+    @field_validator("refined_seeds")
+    @classmethod
+    def _of_the_seeds(cls, refined: int, info: ValidationInfo) -> int:
+        # Of the seeds that are valid; the default is cut below.
+        seeds = info.data.get("seeds")
+        if seeds is not None and refined > len(seeds):
+            raise refusal(
+                f"must be at most {len(seeds)}, the number of seeds, of which so many run again; "
+                "lower it, raise seeds, or leave it out"
+            )
+        return refined
+
+    @model_validator(mode="after")
+    def _default_within_seeds(self) -> Self:
+        if "refined_seeds" in self.model_fields_set:
+            return self
+        refined = min(self.refined_seeds, len(self.seeds))
+        return self.model_copy(update={"refined_seeds": refined})
+
     def settings(self, refinement: int = 1) -> dict[str, Any]:
         """Return the sample as plain values; a refinement takes that many times the steps.
 
@@ -209,31 +211,6 @@ def _is_list_of_grains(sample):
     return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
-def _usable_name(name):
-    """Return the name of a sample, or refuse one that no folder can have."""
-    if not isinstance(name, str):
-        raise refusal("a name must be text: put it in quotes")
-    if not re.fullmatch(_NAME, name):
-        raise refusal(
-            f"a name must be 1 to {_LONGEST_NAME} letters, digits, '.', '_' and '-', and begin "
-            "with a letter or digit: it names a folder"
-        )
-    if name.endswith(REFINED):
-        raise refusal(f"a name must not end in {REFINED}, kept for the convergence of the others")
-    if name in _TAKEN:
-        raise refusal(f"a name must not be {name}, which results has for all samples")
-    return name
-
-
-SampleName = Annotated[str, BeforeValidator(_usable_name)]
-
-
-_NAMES_SCHEMA = {
-    "pattern": f"^{_NAME}$",
-    "not": {"anyOf": [{"pattern": f"{REFINED}$"}, {"enum": list(_TAKEN)}]},
-}
-
-
 def _not_empty(samples):
     if not samples:
         raise refusal("must hold at least one sample")
@@ -247,7 +224,7 @@ class Config(Section):
 
     samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)] = Field(
         description="One or more samples by names of your own; results go to results/<name>.",
-        json_schema_extra={"minProperties": 1, "propertyNames": _NAMES_SCHEMA},
+        json_schema_extra={"minProperties": 1, "propertyNames": NAMES_SCHEMA},
     )
     energy_split: EnergySplit = Field(
         EnergySplit(), description="How the energy split is binned, and the intervals found."

@@ -6,8 +6,11 @@
 `predictors`, `designs`
     `PREDICTORS` holds the mean energies of a branch as functions of its two radii, with the look of
     each in figures. `compared_predictors` fits them all and judges each on seeds left out.
-`curvature`
-    `curvature` says how far the energies are from a power law of branch length.
+`curvature`, `local_exponents`, `estimators`
+    `curvature` says how far the energies are from a power law of branch length, `local_exponents`
+    what its exponent is along the length, and `binned_estimators` what other fits make of n.
+`radius_ratio`
+    `radius_ratio_table`: the energy by the ratio of the radii, at equal length.
 `fit`, `state_fit`
     `EnergySplitFit` and its parts are what is known of the energy split of a sample: the types
     behind `energy_split.json`.

@@ -131,6 +131,33 @@ def log_reduced_radius(small: NDArray, large: NDArray) -> NDArray:
     return small + large - log_length(small, large)
 
 
+def log_equality(small: NDArray, large: NDArray) -> NDArray:
+    r"""Return the logarithm of the product of the radii over that of equal radii of one length.
+
+    .. math:: \ln\frac{4\, r_1 r_2}{(r_1 + r_2)^2} = -2 \ln\cosh\left(\tfrac12
+        \ln\frac{r_{min}}{r_{max}}\right)
+
+    A function of the ratio alone: 0 for equal radii, where it is level, and for very unequal ones
+    ln(4 r_min/r_max).
+
+    Parameters
+    ----------
+    small, large : ndarray, shape (M,)
+        As for `log_length`.
+
+    Returns
+    -------
+    ndarray, shape (M,)
+        [-]
+
+    Examples
+    --------
+    >>> np.exp(log_equality(np.log([0.5, 0.1]), np.log([0.5, 0.3]))).round(12).tolist()
+    [1.0, 0.75]
+    """
+    return small + large + np.log(4.0) - 2.0 * log_length(small, large)
+
+
 def grain_sizes(
     theta: NDArray | None, small: NDArray | None = None, large: NDArray | None = None
 ) -> Any:

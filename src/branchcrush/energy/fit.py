@@ -5,7 +5,7 @@ which takes it back. A number that is not known is nan here and null in the file
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from branchcrush.energy.state_fit import UNKNOWN, Curvature, StateFit, number_or_nan
@@ -106,6 +106,8 @@ class EnergySplitFit:
         The same in the first loaded state; None where that is the end.
     reason : str or None
         Why there is no energy split; the numbers are nan then.
+    estimators : mapping of str to Interval
+        n at the end, by the names in `energy.estimators.ESTIMATORS` [-].
 
     Examples
     --------
@@ -128,6 +130,7 @@ class EnergySplitFit:
     end: StateFit
     near_jamming: StateFit | None
     reason: str | None = None
+    estimators: Mapping[str, Interval] = field(default_factory=dict)
 
     @classmethod
     def without(cls, reason: str, packings: EndState | None = None) -> "EnergySplitFit":
@@ -173,6 +176,7 @@ class EnergySplitFit:
             **packings,
             "cubic_slope": self.cubic_slope,
             "cubic_r_squared": self.cubic_r_squared,
+            "estimators": {name: value._asdict() for name, value in self.estimators.items()},
             **self.end.result(),
             **({} if self.near_jamming is None else {"near_jamming": self.near_jamming.result()}),
         }
@@ -193,7 +197,6 @@ class EnergySplitFit:
         packings = EndState.read(result) if "seeds" in result else None
         if "reason" in result:
             return cls.without(result["reason"], packings)
-        ends = {key: result[key] for key in ("predictors", "curvature")}
         near = result.get("near_jamming")
         return cls(
             exponent=Interval.read(result, "exponent"),
@@ -205,6 +208,10 @@ class EnergySplitFit:
             packings=packings,
             cubic_slope=number_or_nan(result["cubic_slope"]),
             cubic_r_squared=number_or_nan(result["cubic_r_squared"]),
-            end=StateFit.read(ends),
+            end=StateFit.read({**result, "state": None}),
             near_jamming=None if near is None else StateFit.read(near),
+            estimators={
+                name: Interval(*(number_or_nan(value[part]) for part in Interval._fields))
+                for name, value in result["estimators"].items()
+            },
         )

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from branchcrush.energy.designs import (
     LinearDesign,
     grain_sizes,
+    log_equality,
     log_length,
     log_reduced_radius,
     prepared,
@@ -94,6 +95,17 @@ PREDICTORS = {
         label="grain size (Einav)",
         color="#c1440e",
         marker="s",
+    ),
+    # A mean energy that goes as a power where both radii are scaled alike is A l^q g(r_min/r_max).
+    # By symmetry g is level at equal radii. This one holds l (p = 0) and R* (p = q), and a second
+    # exponent explains no more on seeds left out.
+    "length_and_ratio": Predictor(
+        "A l^q (4 r1 r2/l^2)^p",
+        ("length_exponent", "ratio_exponent"),
+        LinearDesign(lambda s, g: [log_length(s, g), log_equality(s, g)], [3.0, 0.0]),
+        label="length and ratio",
+        color="#c99a1a",
+        marker="v",
     ),
     "surface": Predictor(
         "exp of a full quadratic in ln r_min and ln r_max",

@@ -16,10 +16,10 @@ from branchcrush.statistics.intervals import pooled_interval
 from branchcrush.statistics.power_law import power_law_fit
 
 # Edges of r_min/r_max.
-_RADIUS_RATIOS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
-_BINS = _RADIUS_RATIOS.size - 1
+RADIUS_RATIOS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
+_BINS = RADIUS_RATIOS.size - 1
 # The bins up to the claim's ratio.
-_AS_CLAIMED = int(np.searchsorted(_RADIUS_RATIOS, 1.0 / LARGER))
+_AS_CLAIMED = int(np.searchsorted(RADIUS_RATIOS, 1.0 / LARGER))
 # Energies of single branches scatter more than those of grains: ten at random, of the scatter that
 # is measured, give intervals of 95 % that cover 80 %, thirty give 90 %.
 _FEWEST = 30
@@ -113,8 +113,8 @@ def branch_shielding(
     # Branches less unequal than the claim's are counted for what they hold, and do not answer it.
     as_claimed = int(unequal[_AS_CLAIMED - 1])
     table = {
-        "radius_ratio_low": _RADIUS_RATIOS[:-1],
-        "radius_ratio_high": _RADIUS_RATIOS[1:],
+        "radius_ratio_low": RADIUS_RATIOS[:-1],
+        "radius_ratio_high": RADIUS_RATIOS[1:],
         "mean_radius_ratio": mean_ratio,
         "branches": branches.astype(int),
         **ratios.part(slice(-1)).named("energy_ratio"),
@@ -122,7 +122,7 @@ def branch_shielding(
     return table, {
         **limits.part(1).named("length_exponent"),
         **limits.part(2).named("shielding_exponent"),
-        "radius_ratio_to": float(_RADIUS_RATIOS[to]),
+        "radius_ratio_to": float(RADIUS_RATIOS[to]),
         "unequal_branches": int(unequal[to - 1]),
         **unequal_over_equal.named("unequal_over_equal"),
         "claim": claim_answer(unequal_over_equal, as_claimed, _FEWEST, "branch"),
@@ -142,7 +142,7 @@ def _seed_sums(small: NDArray, large: NDArray, energy: NDArray, edges: NDArray) 
     BranchColumns, and the sums of their lengths over R_max, of their ratios and of their energies.
     """
     log, ratio = log_length(small, large), np.exp(small - large)
-    group = np.searchsorted(_RADIUS_RATIOS * (1.0 + ROUNDING), ratio, side="left") - 1
+    group = np.searchsorted(RADIUS_RATIOS * (1.0 + ROUNDING), ratio, side="left") - 1
     cell = bin_numbers(log, edges) * _BINS + np.clip(group, 0, _BINS - 1)
     parts = (None, np.exp(log), ratio, energy)
     sums = [np.bincount(cell, part, _BINS * _LENGTHS) for part in parts]

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from branchcrush.energy.local_exponents import LocalExponent
 from branchcrush.statistics.intervals import Interval
 
 _NAN = float("nan")
@@ -208,20 +209,39 @@ class StateFit:
         Its number; None at the end.
     solid_fraction : float or None
         phi, mean of the seeds [-]; None at the end, where `EndState` has it.
+    local_exponents : tuple of LocalExponent
+        From short to long branches; empty where lengths are too few.
     """
 
     predictors: tuple[FittedPredictor, ...]
     curvature: Curvature
     state: int | None = None
     solid_fraction: float | None = None
+    local_exponents: tuple[LocalExponent, ...] = ()
+
+    def predictor(self, name: str) -> FittedPredictor | None:
+        """Return the predictor of this name, None where there is no fit of it.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        FittedPredictor or None
+        """
+        known = (one for one in self.predictors if one.name == name and one.reason is None)
+        return next(known, None)
 
     def result(self) -> dict[str, Any]:
         """Return what `energy_split.json` holds of it."""
         place = {"state": self.state, "solid_fraction": self.solid_fraction}
+        parts = [part.result() for part in self.local_exponents]
         return {
             **(place if self.state is not None else {}),
             "predictors": [predictor.result() for predictor in self.predictors],
             "curvature": self.curvature.result(),
+            **({"local_exponents": parts} if parts else {}),
         }
 
     @classmethod
@@ -243,4 +263,5 @@ class StateFit:
             Curvature.read(result["curvature"]),
             state,
             None if state is None else number_or_nan(result["solid_fraction"]),
+            tuple(LocalExponent.read(one) for one in result.get("local_exponents", ())),
         )

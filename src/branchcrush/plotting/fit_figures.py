@@ -112,8 +112,8 @@ def draw_exponent_path(path: Path, dpi: int, states: Table, fit: EnergySplitFit)
     return ax.figure
 
 
-def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit) -> Figure:
-    """Draw what predicts the energies and their local exponents, and return the figure.
+def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit, ratio: Table) -> Figure:
+    """Draw what predicts the energies, local exponents and radius ratios, and return the figure.
 
     Parameters
     ----------
@@ -122,14 +122,17 @@ def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit) -> Figure:
     dpi : int
     fit : EnergySplitFit
         Read from `energy_split.json`.
+    ratio : DataFrame
+        `energy_split_ratio.csv`.
 
     Returns
     -------
     Figure
     """
-    with figure(path, dpi, *grid(1, 2)) as panels:
+    with figure(path, dpi, *grid(1, 3)) as panels:
         drawn(predictors.plot_predictors, fit.reason, fit, ax=panels[0])
-        drawn(predictors.plot_slopes, fit.reason, fit, ax=panels[1])
+        drawn(predictors.plot_local_exponents, fit.reason, fit, ax=panels[1])
+        drawn(predictors.plot_radius_ratio, fit.reason, ratio, fit, ax=panels[2])
     return panels[0].figure
 
 

@@ -3,10 +3,16 @@
 import numpy as np
 from matplotlib.axes import Axes
 
+from branchcrush.energy.designs import log_equality
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
-from branchcrush.plotting.style import MODEL, STATES, axes
+from branchcrush.files.tables import Table
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, STATES, axes, reason
+from branchcrush.statistics.intervals import interval_names
+
+# A bin of the ratio is drawn with so many branches or more, as by the shielding.
+_FEWEST = 20
 
 
 def plot_predictors(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
@@ -40,12 +46,13 @@ def plot_predictors(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
         ax.text(0.5, 0.5, "needs two seeds or more", ha="center", transform=ax.transAxes)
         return ax
     ax.set_xlim(min(0.0, ax.get_xlim()[0]), None)
+    ax.locator_params(axis="x", nbins=5)
     ax.legend(loc="lower center", bbox_to_anchor=(0.4, 1.0), ncols=2)
     return ax
 
 
-def plot_slopes(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
-    """Draw the local exponents of the energy at short and at long branches.
+def plot_local_exponents(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
+    """Draw the exponent in ranges of branch length at the end, and the same at equal radius ratio.
 
     Parameters
     ----------
@@ -58,26 +65,71 @@ def plot_slopes(fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
     Axes
     """
     ax = axes(ax)
-    for (label, color), state, side in _states(fit):
-        bend = state.curvature
-        if bend.reason is not None:
-            continue
-        slopes = (bend.slope_at_10_percent, bend.slope_at_mean, bend.slope_at_90_percent)
-        value, low, high = np.array(slopes).T
-        text = f"{label}: c = {bend.curvature.estimate:.2f}"
-        error = None
-        if np.isfinite(low).all():
-            text += f" ({bend.curvature.low:.2f} to {bend.curvature.high:.2f})"
-            error = [value - low, high - value]
-        ax.errorbar(np.arange(3) + 0.05 * side, value, error, fmt="o-", color=color, label=text)
-    ax.axhline(PAPER_EXPONENT, color=MODEL, ls="--", lw=0.9, label="the paper's n = 3")
-    ax.set_xticks(range(3), ["shortest 10 %", "mean", "longest 10 %"])
+    parts = fit.end.local_exponents
+    if not parts:
+        return reason(ax, "branches have too few lengths")
+    middle = np.array([(part.length_low + part.length_high) / 2.0 for part in parts])
+    width = parts[0].length_high - parts[0].length_low
+    series = (
+        ("all", [part.exponent for part in parts], MEASURED, "o-", -0.06),
+        ("at equal ratio", [part.at_equal_ratio for part in parts], OTHER, "v--", 0.06),
+    )
+    for label, exponents, color, style, side in series:
+        value, low, high = np.array(exponents).T
+        error = [value - low, high - value] if np.isfinite(low).any() else None
+        ax.errorbar(middle + side * width, value, error, fmt=style, color=color, label=label)
+    ax.axhline(PAPER_EXPONENT, color=MODEL, ls=":", lw=0.9, label="the paper's n = 3")
+    if (fitted := fit.end.predictor("length_and_ratio")) is not None:
+        q = fitted.parameters["length_exponent"].estimate
+        ax.axhline(q, color=OTHER, ls="-.", lw=0.9, label=f"q = {q:.2f}")
     ax.set(
-        xlabel="branches, by length", ylabel="local exponent d ln E / d ln l [-]", xlim=(-0.3, 2.3)
+        xlabel=r"branch length $l/R_M$ [-]",
+        ylabel="local exponent d ln E / d ln l [-]",
+        xlim=(parts[0].length_low, parts[-1].length_high),
     )
     low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.35 * (high - low))
-    ax.legend(loc="upper left", title="c = 0 for a power law", title_fontsize=6.5)
+    ax.set_ylim(low, high + 0.45 * (high - low))
+    ax.legend(loc="upper left", ncols=2)
+    return ax
+
+
+def plot_radius_ratio(table: Table, fit: EnergySplitFit, ax: Axes | None = None) -> Axes:
+    """Draw the energy at equal length against the ratio of the radii, measured and as fitted.
+
+    Parameters
+    ----------
+    table : DataFrame
+        `energy_split_ratio.csv`.
+    fit : EnergySplitFit
+        Read from `energy_split.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    fitted = fit.end.predictor("length_and_ratio")
+    if fitted is None:
+        return reason(ax, "no two ratios of radii")
+    rows = table[table["branches"] >= _FEWEST]
+    value, low, high = (rows[name] for name in interval_names("g"))
+    error = [value - low, high - value] if low.notna().any() else None
+    x = rows["mean_radius_ratio"]
+    ax.errorbar(x, value, error, fmt="o", color=MEASURED, label="measured")
+    ratio = np.linspace(1e-3, 1.0, 200)
+    p = fitted.parameters["ratio_exponent"].estimate
+    g = np.exp(p * log_equality(np.log(ratio), np.zeros_like(ratio)))
+    text = rf"$(4 r_1 r_2/l^2)^p$, p = {p:.2f}"
+    ax.plot(ratio, g, color=OTHER, label=text)
+    ax.axhline(1.0, color=FAINT, lw=0.8)
+    ax.set(
+        xlabel=r"ratio of the radii $r_{min}/r_{max}$ [-]",
+        ylabel=r"energy at equal length, $g$ [-]",
+        xlim=(0, 1.02),
+    )
+    ax.set_ylim(0.0, max(1.3, 1.1 * value.max()))
+    ax.legend(loc="upper left")
     return ax
 
 

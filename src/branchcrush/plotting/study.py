@@ -15,6 +15,7 @@ from branchcrush.packings.contact_laws import CONTACT_LAWS
 from branchcrush.plotting.intervals import draw_band
 from branchcrush.plotting.style import FAINT, axes, widen
 from branchcrush.study.kinds import SampleKind
+from branchcrush.study.results import NOT_CERTIFIED
 from branchcrush.study.verdicts import GOOD_DISTANCE
 
 _COLOURS = ("#1f4e79", "#c1440e", "#3a7d44", "#8a5aa5", "#c99a1a", "#5b8a9a", "#7a4b2a", "#d46a9a")
@@ -137,7 +138,8 @@ def plot_samples(rows: Table, kind: str, ax: Axes | None = None) -> Axes:
                 label=look.label,
                 ms=4,
             )
-    ax.set_yticks(places, rows["sample"])
+    marks = np.where(rows["verdict"] == NOT_CERTIFIED, f" ({NOT_CERTIFIED})", "")
+    ax.set_yticks(places, rows["sample"] + marks)
     ax.invert_yaxis()
     ax.grid(axis="y", color="#eeeeee")
     if kind == "lengths":

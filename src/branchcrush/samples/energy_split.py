@@ -7,10 +7,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from branchcrush.energy.curvature import curvature
+from branchcrush.energy.estimators import ESTIMATORS, binned_estimators
 from branchcrush.energy.fit import EndState, EnergySplitFit
+from branchcrush.energy.local_exponents import local_exponents
 from branchcrush.energy.predictors import compared_predictors
+from branchcrush.energy.radius_ratio import radius_ratio_table
 from branchcrush.energy.split import cubic_r_squared, energy_split
-from branchcrush.energy.state_fit import Curvature, StateFit
+from branchcrush.energy.state_fit import UNKNOWN, Curvature, StateFit
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.gradings.distribution import Grading
@@ -55,7 +58,8 @@ def energy_split_results(
     Returns
     -------
     tables : dict
-        table, of `final_energy_split`, and path, of `exponents_along_path`; or why there are none.
+        table, of `final_energy_split`, path, of `exponents_along_path`, and ratio, of
+        `energy.radius_ratio.radius_ratio_table`; or why there are none.
     fit : EnergySplitFit
         With the reason, and what is known of the packings, where there is no energy split.
     """
@@ -72,8 +76,18 @@ def energy_split_results(
         along = exponents_along_path(branches, paths, mean_jamming, **options)
     except FitError as error:
         table, _ = no_data(error)
-        return {"table": table, "path": table}, EnergySplitFit.without(str(error), packings)
-    return {"table": table, "path": along}, fit
+        nothing = dict.fromkeys(("table", "path", "ratio"), table)
+        return nothing, EnergySplitFit.without(str(error), packings)
+    ratio = _ratio_table([seed.last for seed in branches], fit.end, options)
+    return {"table": table, "path": along, "ratio": ratio}, fit
+
+
+def _ratio_table(seeds, end, options):
+    fitted = end.predictor("length_and_ratio")
+    if fitted is None:
+        return no_data("the branches do not tell length and ratio of the radii apart")[0]
+    exponents = (value.estimate for value in fitted.parameters.values())
+    return radius_ratio_table(seeds, *exponents, **options)
 
 
 def final_energy_split(
@@ -117,6 +131,7 @@ def final_energy_split(
     law, exponent = binned_exponent(sums, rng=Resampling.EXPONENTS.rng(), **options)
     table, reference = energy_split(sums.sum(axis=0), law, edges[-1] / 2.0)
     slope, r_squared = cubic_r_squared(table["branch_length_m"] / reference, table["f"])
+    end = _state_fit([seed.last for seed in branches], options)
     alone = [float(binned_exponent(seed[None], rng=None)[1].estimate) for seed in sums]
     fit = EnergySplitFit(
         exponent=exponent,
@@ -128,10 +143,24 @@ def final_energy_split(
         packings=packings,
         cubic_slope=slope,
         cubic_r_squared=r_squared,
-        end=_state_fit([seed.last for seed in branches], options),
+        end=end,
         near_jamming=_first_state_fit(branches, paths, options),
+        estimators=_estimators(branches, end, edges, options),
     )
     return {"length_low_m": edges[:-1], "length_high_m": edges[1:], **table}, fit
+
+
+def _estimators(branches, end, edges, options):
+    by_length = end.predictor("branch_length")
+    found = dict.fromkeys(ESTIMATORS, UNKNOWN)
+    if by_length is not None:
+        found["gamma_regression"] = by_length.parameters["exponent"]
+    # Without what rattlers hold, whose logarithms would weigh heavily.
+    seeds, relative = [seed.last for seed in branches], 2.0 * edges / edges[-1]
+    try:
+        return found | binned_estimators(seeds, relative, **options)
+    except FitError:
+        return found
 
 
 def _first_state_fit(branches, paths, options):
@@ -152,7 +181,7 @@ def _state_fit(seeds, options, **place):
         bend = curvature(seeds, **options)
     except FitError as error:
         bend = Curvature.without(str(error))
-    return StateFit(predictors, bend, **place)
+    return StateFit(predictors, bend, local_exponents=local_exponents(seeds, **options), **place)
 
 
 def end_state(

@@ -32,9 +32,11 @@ def finding_rows(
     Returns
     -------
     list of dict
-        From `finding_row`, all at one distance from jamming.
+        From `finding_row`, all at one distance from jamming, which every certified sample reaches.
     """
-    distance = common_distance([sample.path for sample in samples if sample.fit.reason is None])
+    known = [sample for sample in samples if sample.fit.reason is None]
+    certified = [sample for sample in known if sample.is_certified]
+    distance = common_distance([sample.path for sample in certified or known])
     options = {"confidence": confidence, "resamples": resamples}
     return [finding_row(sample, distance, options) for sample in samples]
 
@@ -62,6 +64,8 @@ def finding_row(
         "sample": sample.name,
         "boundary": sample.kind.boundary,
         "contact_law": sample.kind.law,
+        "verdict": sample.certificate["verdict"],
+        "verdict_reasons": "; ".join(sample.certificate["reasons"]) or None,
         "reason": sample.reason,
     }
     if sample.fit.reason is None:
@@ -108,6 +112,9 @@ def _split(state: StateFit, where: str) -> dict[str, Any]:
     for name in ("branch_length", "reduced_radius"):
         if name in known:
             row |= _at(where, known[name].parameters["exponent"], f"exponent_of_{name}")
+    if "length_and_ratio" in known:
+        for name, value in known["length_and_ratio"].parameters.items():
+            row |= _at(where, value, name)
     return {**row, f"best_predictor_{where}": _best(known.values())}
 
 

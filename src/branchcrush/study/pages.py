@@ -10,7 +10,9 @@ from typing import Any
 from jinja2 import Environment, StrictUndefined
 
 from branchcrush import __version__
+from branchcrush.energy.estimators import ESTIMATORS
 from branchcrush.energy.fit import EnergySplitFit
+from branchcrush.energy.local_exponents import trend
 from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import LIMITS, Interval, interval_text
 from branchcrush.study.verdicts import GOOD_DISTANCE, verdicts
@@ -75,7 +77,11 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
         )
         for page in samples
     ]
-    return _environment().from_string(template).render(samples=pages, version=__version__)
+    return (
+        _environment()
+        .from_string(template)
+        .render(samples=pages, estimators=ESTIMATORS, version=__version__)
+    )
 
 
 def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:
@@ -97,7 +103,8 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     Examples
     --------
     >>> import pandas as pd
-    >>> rows = pd.DataFrame({"sample": ["sand"], "exponent_at_end": [float("nan")]})
+    >>> row = {"sample": "sand", "verdict": "not certified", "exponent_at_end": float("nan")}
+    >>> rows = pd.DataFrame([row])
     >>> render_findings("{{ rows | length }} sample, {{ verdicts.known | length }} known", rows, {})
     '1 sample, 0 known'
     """
@@ -126,6 +133,7 @@ def _environment() -> Environment:
         "image": _image,
         "interval": _interval,
         "number": _number,
+        "trend": trend,
     }
     return environment
 

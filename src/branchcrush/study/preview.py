@@ -71,12 +71,7 @@ class Plan(NamedTuple):
     @property
     def packings(self) -> int:
         """All packings that are compressed, the refined ones too."""
-        return len(self.sample.seeds) + self.refined
-
-    @property
-    def refined(self) -> int:
-        """Packings that are run again with twice the strain steps."""
-        return min(self.sample.refined_seeds, len(self.sample.seeds))
+        return len(self.sample.seeds) + self.sample.refined_seeds
 
 
 def sample_plan(
@@ -137,8 +132,7 @@ def sample_plan(
     step, state = _TO_STRESS if loading.stresses else _TO_STRAIN
     evaluations = (step * steps + state * states) * (grains / 1000.0) ** _GROWTH
     # A refined seed takes twice the strain steps.
-    refined = min(sample.refined_seeds, len(sample.seeds))
-    packings = len(sample.seeds) + 2.0 * refined
+    packings = len(sample.seeds) + 2.0 * sample.refined_seeds
     mass = np.cumsum(radii**3) / np.sum(radii**3)
     standing = representativity(grading, grains, sample.end)
     return Plan(

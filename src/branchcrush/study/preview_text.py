@@ -94,7 +94,7 @@ def fixed_seconds(plan: Plan) -> float:
     float
         On one core [s].
     """
-    return JOB * (plan.packings + _JOBS + (plan.refined > 0)) + FIGURES
+    return JOB * (plan.packings + _JOBS + (plan.sample.refined_seeds > 0)) + FIGURES
 
 
 def duration(seconds: float) -> str:
@@ -135,7 +135,8 @@ def _line(label: str, text: str) -> list[str]:
 
 def _packings(plan: Plan) -> str:
     seeds = len(plan.sample.seeds)
-    again = f", {plan.refined} of them again with twice the strain steps" if plan.refined else ""
+    refined = plan.sample.refined_seeds
+    again = f", {refined} of them again with twice the strain steps" if refined else ""
     return f"{seeds} packing{'s' * (seeds != 1)}{again}"
 
 

@@ -7,6 +7,9 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
 from branchcrush.study.kinds import SampleKind
 
+# In `certificate.json`: what is found of such a sample is shown, and counts for nothing.
+NOT_CERTIFIED = "not certified"
+
 
 @dataclass(frozen=True)
 class SampleResults:
@@ -22,6 +25,8 @@ class SampleResults:
         `contact_numbers.json`.
     shared : mapping
         `sharing.json`.
+    certificate : mapping
+        `certificate.json`, of it at least the verdict and its reasons.
     path : DataFrame
         `energy_split_path.csv`.
     states : DataFrame
@@ -31,9 +36,11 @@ class SampleResults:
     --------
     >>> kind = SampleKind("walls", "linear", {"form": "single"})
     >>> nothing = {"reason": "no load"}
-    >>> loose = SampleResults("loose", kind, EnergySplitFit.read(nothing), nothing, nothing, 0, 0)
-    >>> loose.reason
-    'no load'
+    >>> verdict = {"verdict": "not certified", "reasons": ["seed 1: stopped"]}
+    >>> fit = EnergySplitFit.read(nothing)
+    >>> loose = SampleResults("loose", kind, fit, nothing, nothing, verdict, 0, 0)
+    >>> loose.reason, loose.is_certified
+    ('no load', False)
     """
 
     name: str
@@ -41,8 +48,14 @@ class SampleResults:
     fit: EnergySplitFit
     numbers: Mapping
     shared: Mapping
+    certificate: Mapping
     path: Table
     states: Table
+
+    @property
+    def is_certified(self) -> bool:
+        """Whether its certificate stands, with notes or without."""
+        return self.certificate["verdict"] != NOT_CERTIFIED
 
     @property
     def reason(self) -> str | None:

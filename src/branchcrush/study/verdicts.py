@@ -8,6 +8,7 @@ import numpy as np
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.statistics.intervals import Interval
+from branchcrush.study.results import NOT_CERTIFIED
 
 # How near a prediction of branch lengths is called good: Kolmogorov-Smirnov distance.
 GOOD_DISTANCE = 0.06
@@ -18,6 +19,7 @@ SIDES = ("holds", "below", "above", "too_wide", "no_interval")
 READINGS = ("contact", "grain", "volume", "branch")
 CLAIMS = ("supported", "contradicted", "undecided", "no_such")
 ANSWERS = (
+    "not_certified",
     "known",
     "one_state",
     *(f"three_{place}_{side}" for place in PLACES for side in SIDES),
@@ -42,15 +44,16 @@ def verdicts(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[str]]:
     Returns
     -------
     dict
-        Lists of names, one for each of `ANSWERS`: `known` samples; `one_state`, those that have no
-        other state than the end; three_<place>_<side>, by the interval of n; `power_law_fails`, by
-        that of the curvature at the end; best_<predictor> at the end; reduced_radius_better and
-        grain_size_worse than branch length, by the paired interval; lengths_good and lengths_bad,
-        by the distance of random parking near jamming; and claim_<reading>_<claim>.
+        Lists of names, one for each of `ANSWERS`: `one_state`, samples that have no other state
+        than the end; `not_certified`, which no list below counts; `known` samples;
+        three_<place>_<side>, by the interval of n; `power_law_fails`, by that of the curvature at
+        the end; best_<predictor> at the end; reduced_radius_better and grain_size_worse than
+        branch length, by the paired interval; lengths_good and lengths_bad, by the distance of
+        random parking near jamming; and claim_<reading>_<claim>.
 
     Examples
     --------
-    >>> row = {"sample": "sand", "exponent_at_end": 2.5}
+    >>> row = {"sample": "sand", "verdict": "certified", "exponent_at_end": 2.5}
     >>> row |= {"exponent_at_end_low": 2.4, "exponent_at_end_high": 2.6}
     >>> verdicts([row])["three_at_end_below"]
     ['sand']
@@ -63,10 +66,13 @@ def verdicts(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[str]]:
 
 
 def _answers(row: Mapping[str, Any]) -> Iterator[str]:
-    if _told(row.get("exponent_at_end")):
-        yield "known"
     if _told(row.get("coordination_number_end")) and not _told(row.get("mean_length_near_m")):
         yield "one_state"
+    if row["verdict"] == NOT_CERTIFIED:
+        yield "not_certified"
+        return
+    if _told(row.get("exponent_at_end")):
+        yield "known"
     for place in PLACES:
         n = Interval.read(row, f"exponent_{place}")
         if _told(n.estimate):

@@ -59,7 +59,7 @@ def test_four_keys_of_a_sample_are_enough():
         "approach_solid_fraction": 0.55,
         "unloading": False,
     }
-    assert (sample.loading.quality, sample.refined_seeds) == ("standard", 4)
+    assert sample.loading.quality == "standard"
     assert sample.ranks == 1
     assert config.energy_split.model_dump() == {"bins": 20, "confidence": 0.95, "resamples": 2000}
     assert config.thermodynamics.ultimate_alpha == 2.6
@@ -123,7 +123,18 @@ def test_refined_sample_differs_in_its_strain_steps_and_seeds_only():
     expected = sample.settings()
     expected |= {"strain_step": expected["strain_step"] / 2, "seeds": [5, 3]}
     assert sample.settings(refinement=2) == expected
-    assert sample_of(seeds=2, refined_seeds=4).settings(refinement=2)["seeds"] == [1, 2]
+
+
+@pytest.mark.parametrize(("seeds", "refined"), [(16, 4), (4, 4), (2, 2), ([7, 3, 5], 3)])
+def test_four_seeds_are_refined_or_all_where_there_are_fewer(seeds, refined):
+    sample = sample_of(seeds=seeds)
+    assert sample.refined_seeds == sample.settings()["refined_seeds"] == refined
+    assert sample.settings(refinement=2)["seeds"] == sample.seeds[:refined]
+
+
+@pytest.mark.parametrize(("seeds", "refined"), [(2, 0), (2, 2), ([7, 3, 5], 3)])
+def test_as_many_seeds_as_there_are_may_be_refined(seeds, refined):
+    assert sample_of(seeds=seeds, refined_seeds=refined).refined_seeds == refined
 
 
 @pytest.mark.parametrize(

@@ -107,6 +107,23 @@ def test_message_names_the_key_its_value_and_what_is_allowed(path, value, shown,
     assert allowed in message.removeprefix(f"config: {path} = {shown}: ")
 
 
+@pytest.mark.parametrize(("seeds", "most"), [(3, 3), ([7, 2], 2)])
+def test_more_refined_seeds_than_seeds_are_refused(seeds, most):
+    config = config_with("samples.mine.seeds", seeds)
+    config["samples"]["mine"]["refined_seeds"] = 4
+    assert message_of(config) == (
+        f"config: samples.mine.refined_seeds = 4: must be at most {most}, the number of seeds, of "
+        "which so many run again; lower it, raise seeds, or leave it out"
+    )
+
+
+def test_seeds_that_are_wrong_say_nothing_of_refined_ones():
+    config = config_with("samples.mine.seeds", 0)
+    config["samples"]["mine"]["refined_seeds"] = 4
+    assert message_of(config).startswith("config: samples.mine.seeds = 0: ")
+    assert "refined_seeds" not in message_of(config)
+
+
 @pytest.mark.parametrize("seed", [-2, 2**32])
 def test_seed_of_a_list_is_named_by_its_place(seed):
     message = message_of(config_with("samples.mine.seeds", [1, seed]))

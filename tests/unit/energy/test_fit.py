@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from branchcrush.energy.fit import EndState, EnergySplitFit
+from branchcrush.energy.local_exponents import LocalExponent
 from branchcrush.energy.state_fit import Curvature, FittedPredictor, StateFit
 from branchcrush.files.tables import read_json, write_json
 from branchcrush.statistics.intervals import Interval
@@ -24,6 +25,7 @@ SURFACE = FittedPredictor.without("surface", "exp of a quadratic", "two lengths"
 BEND = Curvature(
     Interval(0.4, 0.2, 0.6), Interval(2.9, 2.8, 3.0), Interval(3.2, 3.1, 3.3), Interval(3.5, 3, 4)
 )
+PART = LocalExponent(0.9, 1.2, 123, Interval(2.8, 2.5, 3.1), Interval(3.1, 2.9, 3.3))
 END = EndState(16, 43235, 0.74, 0.6, 4.5e7, 4.1e6, 0.027, 5.4, 7.8, 0.25)
 FIT = EnergySplitFit(
     exponent=Interval(3.12, 3.03, 3.21),
@@ -35,8 +37,9 @@ FIT = EnergySplitFit(
     packings=END,
     cubic_slope=1.06,
     cubic_r_squared=0.994,
-    end=StateFit((LENGTH, SURFACE), BEND),
+    end=StateFit((LENGTH, SURFACE), BEND, local_exponents=(PART,)),
     near_jamming=StateFit((SURFACE,), Curvature.without("two lengths"), 6, 0.605),
+    estimators={"least_squares": Interval(2.95, 2.8, 3.1)},
 )
 # Written by hand: what programs that read the file rely on, in this order.
 WRITTEN = """{
@@ -48,6 +51,7 @@ WRITTEN = """{
   "median_overlap_over_length": 0.027, "coordination_number": 5.4,
   "mechanical_coordination_number": 7.8, "rattler_fraction": 0.25,
   "cubic_slope": 1.06, "cubic_r_squared": 0.994,
+  "estimators": {"least_squares": {"estimate": 2.95, "low": 2.8, "high": 3.1}},
   "predictors": [
     {"name": "branch_length", "formula": "A l^n",
      "parameters": {"exponent": {"estimate": 3.0, "low": 2.9, "high": 3.1}},
@@ -60,6 +64,10 @@ WRITTEN = """{
     "slope_at_10_percent": 2.9, "slope_at_10_percent_low": 2.8, "slope_at_10_percent_high": 3.0,
     "slope_at_mean": 3.2, "slope_at_mean_low": 3.1, "slope_at_mean_high": 3.3,
     "slope_at_90_percent": 3.5, "slope_at_90_percent_low": 3, "slope_at_90_percent_high": 4},
+  "local_exponents": [
+    {"length_low_over_R_max": 0.9, "length_high_over_R_max": 1.2, "branches": 123,
+     "exponent": 2.8, "exponent_low": 2.5, "exponent_high": 3.1, "exponent_at_equal_ratio": 3.1,
+     "exponent_at_equal_ratio_low": 2.9, "exponent_at_equal_ratio_high": 3.3}],
   "near_jamming": {
     "state": 6, "solid_fraction": 0.605,
     "predictors": [{"name": "surface", "formula": "exp of a quadratic", "reason": "two lengths"}],

@@ -34,7 +34,7 @@ def test_free_energy_and_stress_of_the_model_are_told_apart(drawn, given):
         (fit_figures.draw_energy_split, (EMPTY, NO_FIT), 1),
         (fit_figures.draw_cubic, (EMPTY, NO_FIT), 1),
         (fit_figures.draw_exponent_path, (EMPTY, NO_FIT), 1),
-        (fit_figures.draw_predictors, (NO_FIT,), 2),
+        (fit_figures.draw_predictors, (NO_FIT, EMPTY), 3),
         (fit_figures.draw_branch_lengths, (EMPTY, NOTHING, 1e-3), 1),
         (fit_figures.draw_crushing_model, (EMPTY, NOTHING), 6),
     ],

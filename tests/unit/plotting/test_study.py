@@ -96,6 +96,7 @@ def findings():
     return pd.DataFrame(
         {
             "sample": ["sand", "mud"],
+            "verdict": ["certified with notes", "certified"],
             "ks_parking_near": [0.03, 0.05],
             "ks_parking_end": [0.3, 0.5],
             "ks_random_contact_near": [0.1, 0.2],
@@ -113,6 +114,13 @@ def test_lengths_are_distances_near_jamming_a_row_a_sample(shown):
     assert ax.get_ylim()[0] > ax.get_ylim()[1]
     assert ax.lines[-1].get_xdata()[0] == 0.06  # called good up to here
     assert ax.get_xscale() == "log"
+
+
+def test_samples_that_are_not_certified_are_marked():
+    rows = findings().assign(verdict=["certified", "not certified"])
+    ax = study.plot_samples(rows, "energies")
+    labels = [text.get_text() for text in ax.get_yticklabels()]
+    assert labels == ["sand", "mud (not certified)"]
 
 
 def test_energies_are_what_is_explained_at_the_end(shown):

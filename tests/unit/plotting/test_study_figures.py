@@ -48,6 +48,7 @@ def test_a_law_without_an_exponent_says_why(drawn, mud):
 ROWS = pd.DataFrame(
     {
         "sample": ["sand", "one", "loose"],
+        "verdict": ["certified", "certified with notes", "not certified"],
         "exponent_at_end": [3.0, 3.0, np.nan],
         "ks_parking_near": [0.03, np.nan, np.nan],
         "explained_reduced_radius_end": [0.19, 0.2, np.nan],

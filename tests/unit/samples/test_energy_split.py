@@ -104,6 +104,9 @@ def test_exact_cubic_energies_give_an_exponent_of_3_however_it_is_found(sample):
     found = [fit["exponent"], fit["exponent_low"], fit["exponent_high"]]
     found += [*fit["exponent_of_each_seed"], fit["mean_of_seed_exponents"]]
     found += [fit["predictors"][0]["exponent"], fit["curvature"]["slope_at_90_percent"]]
+    found += [part["exponent"] for part in fit["local_exponents"]]
+    assert list(fit["estimators"]) == ["gamma_regression", "least_squares", "log_log"]
+    found += [value["estimate"] for value in fit["estimators"].values()]
     assert_allclose(found, 3.0, rtol=0, atol=1e-9)
     assert_allclose(fit["amplitude_J_per_m_n"], AMPLITUDE, rtol=1e-8)
     assert_allclose([fit["cubic_slope"], fit["cubic_r_squared"]], 1.0, rtol=1e-9)
@@ -293,7 +296,7 @@ def test_rule_without_a_certified_seed_says_why_and_reads_nothing(contacts):
     assert read == []
     assert fit.reason.startswith("no packing is certified at the end of its loading: 3 of 3")
     assert fit.packings is None
-    assert tables == {name: {"reason": [fit.reason]} for name in ("table", "path")}
+    assert tables == {name: {"reason": [fit.reason]} for name in ("table", "path", "ratio")}
 
 
 def test_rule_on_branches_of_one_length_keeps_what_is_known_of_the_packings(contacts):

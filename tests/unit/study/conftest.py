@@ -6,7 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from branchcrush.energy.estimators import ESTIMATORS
 from branchcrush.energy.fit import EndState, EnergySplitFit
+from branchcrush.energy.local_exponents import LocalExponent
 from branchcrush.energy.state_fit import Curvature, FittedPredictor, StateFit
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.kinds import SampleKind
@@ -44,9 +46,20 @@ def state_fit(shift=0.0, bend=0.5):
             predictor("reduced_radius", 0.19 - shift, 2.8 - shift, 0.03 - shift),
             predictor("both_radii", 0.185 - shift, 1.8, 0.025 - shift),
             predictor("grain_size", 0.12 - shift, 2.5, -0.04 - shift),
+            replace(
+                predictor("length_and_ratio", 0.188 - shift, difference=0.028 - shift),
+                parameters={
+                    "length_exponent": interval(2.6 - shift),
+                    "ratio_exponent": interval(3.2 - shift),
+                },
+            ),
             predictor("surface", 0.20 - shift, 1.2, 0.04 - shift),
         ),
         Curvature(*(interval(bend - shift + k) for k in (0.0, 2.5, 3.0, 3.5))),
+        local_exponents=tuple(
+            LocalExponent(low, low + 0.3, 99, interval(n - shift), interval(q - shift))
+            for low, n, q in ((0.8, 2.4, 3.0), (1.1, 3.8, 2.9), (1.4, 2.2, 2.9))
+        ),
     )
 
 
@@ -74,6 +87,10 @@ def fit(n=(3.0, 2.9, 3.1), seeds=3):
         cubic_r_squared=0.99,
         end=state_fit(),
         near_jamming=state_fit(shift=0.05),
+        estimators={
+            name: interval(value)
+            for name, value in zip(ESTIMATORS, (3.12, 2.95, 2.74), strict=True)
+        },
     )
 
 
@@ -155,7 +172,16 @@ def states_of(prefactor=8.0):
 def sample():
     """Return a function that makes the results of a sample."""
 
-    def make(name="one", *, n=(3.0, 2.9, 3.1), parking=0.03, exponents=None, **claims):
+    def make(
+        name="one",
+        *,
+        n=(3.0, 2.9, 3.1),
+        parking=0.03,
+        exponents=None,
+        verdict="certified",
+        **claims,
+    ):
+        reasons = ["seed 2: stopped"] if verdict == "not certified" else []
         return SampleResults(
             name=name,
             kind=SampleKind("walls", "hertz", {"form": "single"}),
@@ -163,6 +189,7 @@ def sample():
             # The two states give different answers: 0.3 is bad.
             numbers={"near_jamming": touching(parking, 0.05), "end": touching(parking + 0.3)},
             shared={"near_jamming": shared(shift=0.3), "end": shared(**claims)},
+            certificate={"verdict": verdict, "reasons": reasons},
             path=path_of() if exponents is None else path_of(exponents),
             states=states_of(),
         )

@@ -18,7 +18,7 @@ def row_of(results, distance=0.1):
 def test_row_is_of_its_sample_and_of_its_exponents(sample):
     row = row_of(sample())
     assert (row["sample"], row["boundary"], row["contact_law"]) == ("one", "walls", "hertz")
-    assert row["reason"] is None
+    assert (row["verdict"], row["verdict_reasons"], row["reason"]) == ("certified", None, None)
     assert (row["seeds"], row["solid_fraction"]) == (3, 0.7407)
     assert [row[f"exponent_at_end{limit}"] for limit in ("", "_low", "_high")] == [3.0, 2.9, 3.1]
     assert (row["distance"], row["distance_at_end"]) == (0.1, 0.15)
@@ -38,6 +38,11 @@ def test_fits_of_each_state_are_in_the_columns_of_that_state(sample, where, shif
         "explained_reduced_radius": 0.19,
         "explained_both_radii": 0.185,
         "explained_grain_size": 0.12,
+        "explained_length_and_ratio": 0.188,
+        "length_exponent": 2.6,
+        "length_exponent_low": 2.5,
+        "ratio_exponent": 3.2,
+        "ratio_exponent_high": 3.4,
         "explained_surface": 0.20,
         "reduced_radius_over_length": 0.03,
         "reduced_radius_over_length_low": 0.02,
@@ -166,11 +171,13 @@ def test_row_of_a_sample_without_some_data_says_why_and_has_the_rest(sample, par
 def test_row_of_a_sample_without_any_data_says_only_why(sample):
     nothing = {"reason": "no load"}
     parts = {"fit": EnergySplitFit.read(nothing), "numbers": nothing, "shared": nothing}
-    row = row_of(replace(sample("loose"), **parts))
+    row = row_of(replace(sample("loose", verdict="not certified"), **parts))
     assert row == {
         "sample": "loose",
         "boundary": "walls",
         "contact_law": "hertz",
+        "verdict": "not certified",
+        "verdict_reasons": "seed 2: stopped",
         "reason": "no load",
     }
 
@@ -183,3 +190,15 @@ def test_all_rows_are_at_the_distance_that_all_paths_reach(sample, one_state):
     assert [row["sample"] for row in rows] == ["long", "short", "alone", "loose"]
     assert [row.get("distance") for row in rows] == [0.1, 0.1, 0.1, None]
     assert rows[0]["exponent_at_distance"] == pytest.approx(3.0)
+
+
+def test_the_distance_is_that_of_the_certified_samples(sample):
+    short = sample("short", verdict="not certified")
+    short = replace(short, path=short.path[:3])  # to 0.10
+    rows = finding_rows([sample("long"), short], **INTERVALS)
+    assert [row["distance"] for row in rows] == [0.15, 0.15]
+    assert rows[0]["exponent_at_distance"] == pytest.approx(3.2)
+    assert rows[1]["exponent_at_distance"] != rows[1]["exponent_at_distance"]
+    # Of no certified ones it is that of all.
+    alone = finding_rows([short], **INTERVALS)
+    assert alone[0]["distance"] == 0.1

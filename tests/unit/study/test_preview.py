@@ -54,7 +54,7 @@ def test_evaluations_and_time_of_a_thousand_grains_are_those_of_their_steps_and_
     assert plan.force_evaluations == pytest.approx(60 * 70 + 15 * 2000)
     # Four seeds, one of them again with twice the strain steps.
     assert plan.seconds == pytest.approx(6 * plan.force_evaluations * 1000 * 1e-7)
-    assert (plan.packings, plan.refined) == (5, 1)
+    assert plan.packings == 5
 
 
 def test_evaluations_grow_with_the_cube_root_of_the_grains_and_time_with_both():

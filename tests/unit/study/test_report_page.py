@@ -88,7 +88,7 @@ def fit(sample):
     packings = replace(sample().fit.packings, jamming_solid_fraction=0.64)
     whole = replace(sample().fit, exponent=Interval(3.111, 2.99, 3.24), packings=packings)
     surface = FittedPredictor.without("surface", "quadratic", "not told apart")
-    predictors = (*whole.end.predictors[:4], surface)
+    predictors = (*whole.end.predictors[:5], surface)
     return replace(whole, end=replace(whole.end, predictors=predictors))
 
 
@@ -183,6 +183,32 @@ def test_why_nothing_is_left_out_stands_in_place_of_what_is_explained(page, fit)
     length = replace(fit.end.predictors[0], left_out_reason="needs two seeds")
     html = page({"fit": replace(fit, end=replace(fit.end, predictors=(length,)))})
     assert "<td>needs two seeds</td>" in html
+
+
+def test_what_n_is_a_mixture_of_is_said(page, fit):
+    html = page({})
+    assert "q = 2.60 (2.50 to 2.80); and at equal length unequal grains share less" in html
+    assert "p = 3.20 (3.10 to 3.40), which is 1 for equal radii." in html
+    # 3.111 less 2.6.
+    assert "n differs from q: here by +0.51." in html
+    assert (
+        "the local exponent is 2.40 (2.30 to 2.60), 3.80 (3.70 to 4.00), 2.20 (2.10 to 2.40): it "
+        "rises and then falls. At equal ratio it is 3.00 (2.90 to 3.20), 2.90 (2.80 to 3.10), 2.90 "
+        "(2.80 to 3.10): it does not change by more than the intervals allow." in html
+    )
+    for words, n in (
+        ("gamma regression of all branches", "3.12 (3.02 to 3.32)"),
+        ("least squares on f(l), as the paper", "2.95 (2.85 to 3.15)"),
+        ("straight line through ln f and ln l, unweighted", "2.74 (2.64 to 2.94)"),
+    ):
+        assert re.search(rf"<td>{re.escape(words)}[^<]*</td><td>{re.escape(n)}</td>", html)
+
+
+def test_one_ratio_or_two_lengths_say_what_cannot_be_told(page, fit):
+    end = replace(fit.end, predictors=fit.end.predictors[:4], local_exponents=())
+    html = page({"fit": replace(fit, end=end)})
+    assert "What n is a mixture of cannot be told" in html
+    assert "too few lengths for an exponent that changes along l" in html
 
 
 @pytest.mark.parametrize(
