@@ -118,24 +118,32 @@ class CriticalEnergy:
         ndarray
             eps_e [-]; infinite where the driving force stays too small up to 0.5.
         """
-        from scipy.optimize.elementwise import find_root  # slow to import, and few jobs need it
+        # Slow to import, and few jobs need it.
+        from scipy.optimize.elementwise import find_minimum, find_root
 
         crushing = np.asarray(crushing, float)
-        at = crushing.reshape(-1, 1)
+        at = crushing.reshape(-1)
         steps = np.geomspace(_LEAST, LARGEST, _STEPS)
 
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
 
-        above = excess(steps, at) > 0.0
-        yields = above.any(axis=1)
-        first = np.maximum(above.argmax(axis=1)[yields], 1)
+        table = excess(steps, at[:, None])
+        first = np.maximum((table > 0.0).argmax(axis=1), 1)
+        low, high = steps[first - 1], steps[first]
+        yields = (table > 0.0).any(axis=1)
+        # The force may rise above the resistance, and fall again, within a step.
+        peak = table.argmax(axis=1)
+        hidden = np.flatnonzero(~yields & (peak > 0) & (peak < _STEPS - 1))
+        if hidden.size:
+            around = tuple(steps[peak[hidden] + side] for side in (-1, 0, 1))
+            found = find_minimum(lambda *args: -excess(*args), around, args=(at[hidden],))
+            low[hidden], high[hidden], yields[hidden] = around[0], found.x, found.f_x < 0.0
         result = np.full(at.size, np.inf)
         if yields.any():
-            ends = steps[first - 1], steps[first]
+            ends = low[yields], high[yields]
             tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
-            found = find_root(excess, ends, args=(at[yields, 0],), tolerances=tolerances)
-            result[yields] = found.x
+            result[yields] = find_root(excess, ends, args=(at[yields],), tolerances=tolerances).x
         return result.reshape(crushing.shape)
 
 

@@ -8,7 +8,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from branchcrush.branches.random_contacts import random_contact_moment
-from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
+from branchcrush.crushing.elastic_fits import fit_elasticity
+from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.crushing.law import CrushingLaw
 from branchcrush.crushing.model import reference_energy, theta
 from branchcrush.crushing.path import crushing_path
