@@ -93,8 +93,8 @@ def _least_squares(
 ) -> tuple[float, float]:
     """Return phi_J and the exponent of the best fit; None among those `known` is free."""
     free = np.array([value is None for value in known])
-    if not free.any():
-        return known
+    if known[0] is not None and known[1] is not None:
+        return known[0], known[1]
 
     from scipy.optimize import least_squares  # slow to import, and few jobs need it
 

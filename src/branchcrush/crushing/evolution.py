@@ -205,12 +205,14 @@ class _Walk:
 
     def _integrate(self, to: float, load: float | None) -> None:
         """Let C grow over a piece that is smooth."""
-        form, law = self.line.form, self.line.elasticity
+        line, form, law = self.line, self.line.form, self.line.elasticity
         half, middle = (to - self.crushing) / 2.0, (to + self.crushing) / 2.0
         if half <= 0.0:
             return
-        at = middle + half * np.concatenate([_NODES, _EXTREMES])
-        strain = self._strain_along(at, load)
+        # The first of the extremes is the end.
+        at = np.concatenate([middle + half * _NODES, [to], middle + half * _EXTREMES[1:]])
+        strain = line.strain_at(at) if load is None else line.strain_under(load, at)
+        at_end = float(strain[_NODES.size])
         series = chebyshev.chebfit(_EXTREMES, strain[_NODES.size :], _ORDER)
         slope = chebyshev.chebval(_NODES, chebyshev.chebder(series))
         at, strain = at[: _NODES.size], strain[: _NODES.size]
@@ -219,11 +221,9 @@ class _Walk:
         self.work += float(_WEIGHTS @ (stress * slope))
         self.dissipated += half * float(_WEIGHTS @ form.driving_force(strain, at, law))
         self.compaction += half * float(_WEIGHTS @ (stress * moved))
-        self.crushing, self.strain = to, float(self._strain_along(to, load))
-
-    def _strain_along(self, crushing: ArrayLike, load: float | None) -> NDArray:
-        line = self.line
-        return line.strain_at(crushing) if load is None else line.strain_under(load, crushing)
+        self.crushing, self.strain = to, at_end
+        if load is None:
+            line.known[to] = at_end
 
     def _kinks(self, to: float, load: float | None) -> list[float]:
         """Return the C on the way to one at which the elastic strain passes a knot of the law."""

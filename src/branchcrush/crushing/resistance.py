@@ -3,6 +3,7 @@
 A resistance says at which elastic strain the grains of a grading begin to crush further.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,6 +17,9 @@ from branchcrush.crushing.forms import ModelForm
 # Where a yield strain is sought: elastic strains that no contact law is meant to leave.
 _LEAST, LARGEST = 1e-8, 0.5
 _STEPS = 161
+# How far below the resistance, of it, the force may be at a look and above it next to that.
+_NEARLY = 0.05
+_MOST_SEARCHES, _ROUNDING = 100, 4e-16
 
 
 class Resistance(Protocol):
@@ -118,9 +122,6 @@ class CriticalEnergy:
         ndarray
             eps_e [-]; infinite where the driving force stays too small up to 0.5.
         """
-        # Slow to import, and few jobs need it.
-        from scipy.optimize.elementwise import find_minimum, find_root
-
         crushing = np.asarray(crushing, float)
         at = crushing.reshape(-1)
         steps = np.geomspace(_LEAST, LARGEST, _STEPS)
@@ -128,23 +129,64 @@ class CriticalEnergy:
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
 
-        table = excess(steps, at[:, None])
-        first = np.maximum((table > 0.0).argmax(axis=1), 1)
-        low, high = steps[first - 1], steps[first]
-        yields = (table > 0.0).any(axis=1)
-        # The force may rise above the resistance, and fall again, within a step.
-        peak = table.argmax(axis=1)
-        hidden = np.flatnonzero(~yields & (peak > 0) & (peak < _STEPS - 1))
-        if hidden.size:
-            around = tuple(steps[peak[hidden] + side] for side in (-1, 0, 1))
-            found = find_minimum(lambda *args: -excess(*args), around, args=(at[hidden],))
-            low[hidden], high[hidden], yields[hidden] = around[0], found.x, found.f_x < 0.0
+        looks = excess(steps, at[:, None])
+        rows, first = np.arange(at.size), np.maximum((looks > 0.0).argmax(axis=1), 1)
+        before = np.array([steps[first - 1], looks[rows, first - 1]])
+        after = np.array([steps[first], looks[rows, first]])
+        self._look_between(excess, at, steps, looks, before, after)
+        yields = after[1] > 0.0
         result = np.full(at.size, np.inf)
         if yields.any():
-            ends = low[yields], high[yields]
-            tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
-            result[yields] = find_root(excess, ends, args=(at[yields],), tolerances=tolerances).x
+            ends = [(np.log(end[0, yields]), end[1, yields]) for end in (before, after)]
+            roots = _roots(lambda logs: excess(np.exp(logs), at[yields]), *ends)
+            result[yields] = np.exp(roots)
         return result.reshape(crushing.shape)
+
+    @staticmethod
+    def _look_between(
+        excess: Callable[[NDArray, NDArray], NDArray],
+        at: NDArray,
+        steps: NDArray,
+        looks: NDArray,
+        before: NDArray,
+        after: NDArray,
+    ) -> None:
+        """Move the ends of the search to where the force is above the resistance within a step."""
+        peak = looks.argmax(axis=1)
+        highest = looks[np.arange(at.size), peak]
+        hidden = np.flatnonzero((highest <= 0.0) & (peak > 0) & (peak < steps.size - 1))
+        # Farther below it is no question of where one looks.
+        hidden = hidden[highest[hidden] > -_NEARLY]
+        if hidden.size:
+            from scipy.optimize.elementwise import find_minimum  # slow to import
+
+            around = [steps[peak[hidden] + side] for side in (-1, 0, 1)]
+            found = find_minimum(lambda *args: -excess(*args), tuple(around), args=(at[hidden],))
+            before[:, hidden] = around[0], looks[hidden, peak[hidden] - 1]
+            after[:, hidden] = found.x, -found.f_x
+
+
+def _roots(
+    function: Callable[[NDArray], NDArray],
+    before: tuple[NDArray, NDArray],
+    after: tuple[NDArray, NDArray],
+) -> NDArray:
+    """Return where a function is 0, each between two places and values of other signs.
+
+    Regula falsi, Illinois. scipy's search for many roots at once takes six times as long, nearly
+    all of it for things other than the function, and it is most of what a history takes.
+    """
+    (low, low_value), (high, high_value) = before, after
+    for _ in range(_MOST_SEARCHES):
+        middle = high - high_value * (high - low) / (high_value - low_value)
+        value = function(middle)
+        stays = np.sign(value) == np.sign(high_value)
+        low = np.where(stays, low, high)
+        low_value = np.where(stays, 0.5 * low_value, high_value)
+        moved, high, high_value = np.abs(middle - high), middle, value
+        if (moved <= _ROUNDING * np.abs(high)).all():
+            break
+    return high
 
 
 @dataclass(frozen=True)

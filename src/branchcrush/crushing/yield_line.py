@@ -38,6 +38,8 @@ class YieldLine:
         C between which the line is smooth [-].
     looks, loads : ndarray
         C on every piece, and the loads at which they yield; infinite where one never does.
+    known : dict of float
+        Total strains at which single C yield, each looked for once.
     """
 
     def __init__(
@@ -49,6 +51,7 @@ class YieldLine:
     ) -> None:
         self.form, self.elasticity = form, elasticity
         self.resistance, self.control = resistance, control
+        self.known: dict[float, float] = {}
         knots = form.knots
         rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
@@ -106,6 +109,14 @@ class YieldLine:
 
     def strain_at(self, crushing: ArrayLike) -> NDArray:
         """Return the total strain at which each C yields."""
+        if np.ndim(crushing) > 0:
+            return self._strain_at(crushing)
+        one = float(np.asarray(crushing))
+        if one not in self.known:
+            self.known[one] = float(self._strain_at(one))
+        return np.asarray(self.known[one])
+
+    def _strain_at(self, crushing: ArrayLike) -> NDArray:
         elastic = self.resistance.yield_strain(crushing, self.form, self.elasticity)
         reachable = np.where(np.isfinite(elastic), elastic, 0.0)
         strain = self.form.total_strain(reachable, crushing)
