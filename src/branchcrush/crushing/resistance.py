@@ -33,6 +33,11 @@ class Resistance(Protocol):
     def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
         """Return the least elastic strain at which C grows [-]; infinite where it never does."""
 
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return the driving force at which C grows [J/m3]."""
+
 
 @dataclass(frozen=True)
 class CriticalEnergy:
@@ -84,6 +89,12 @@ class CriticalEnergy:
             [J/m3]
         """
         return self.energy / np.subtract(1.0, crushing) ** self.hardening
+
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return `resistance`, whatever the form and the elastic law."""
+        return self.resistance(crushing)
 
     def excess(
         self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
@@ -239,3 +250,11 @@ class ElasticStrainLimit:
     def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
         """Return the elastic strain at which C grows, as `CriticalEnergy.yield_strain` does."""
         return self.strain * self.change.value(crushing)
+
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return the driving force at the limit, which is what the grains must resist with."""
+        elastic = self.yield_strain(crushing, form, elasticity)
+        strain = form.total_strain(elastic, crushing)
+        return form.driving_force(strain, crushing, elasticity)
