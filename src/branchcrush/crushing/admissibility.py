@@ -163,7 +163,7 @@ def energy_costs(
     elastic = yielding_strain(form, elasticity, resistance, largest, places)
 
     def force(crushing: ArrayLike) -> NDArray:
-        strain = np.interp(crushing, places, elastic)
+        strain = np.interp(np.asarray(crushing, float), places, elastic)
         return force_over_stress(form, elasticity, strain, crushing) + _NOTHING
 
     below = force(places) < 0.0

@@ -41,9 +41,9 @@ def load_leaps(line: YieldLine, largest: float) -> list[Leap]:
     # What does not rise falls as well: there a load leaves open how far C goes.
     falls = np.zeros(loads.size, dtype=bool)
     falls[1:] = loads[1:] <= np.maximum.accumulate(loads)[:-1] * (1.0 + _NOTHING)
-    begins = np.flatnonzero(falls & ~np.append(False, falls[:-1]))
+    begins = np.flatnonzero(falls[1:] & ~falls[:-1]) + 1
     leaps = []
-    for begin in begins:
+    for begin in begins.tolist():
         top = line.top(float(looks[max(begin - 2, 0)]), float(looks[begin]))
         load = float(line.load_at(top))
         holds = np.flatnonzero(~falls[begin:])

@@ -1,7 +1,7 @@
 """The elastic law of a sample before crushing, from its loading path."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -18,6 +18,19 @@ class MeasuredElasticity(NamedTuple):
     law: PowerLawElasticity
     jamming: float  # phi_J [-]
     r_squared: float  # of the energies [-]
+    largest: float  # strain of the densest state, from jamming [-]
+    on_path: bool  # whether jamming lies after the approach
+
+    def summary(self) -> dict[str, Any]:
+        """Return what `thermodynamics.json` tells of it."""
+        return {
+            "elastic_modulus_Pa": self.law.modulus,
+            "elastic_exponent": self.law.exponent,
+            "elastic_r_squared": self.r_squared,
+            "jamming_solid_fraction": self.jamming,
+            "jamming_on_path": self.on_path,
+            "largest_strain": self.largest,
+        }
 
 
 def measured_elasticity(paths: Sequence[pd.DataFrame]) -> MeasuredElasticity:
@@ -52,4 +65,6 @@ def measured_elasticity(paths: Sequence[pd.DataFrame]) -> MeasuredElasticity:
     fitted = phi / jamming * elasticity.energy(1.0 - jamming / phi)
     residual = np.sum((density - fitted) ** 2)
     r_squared = float(1.0 - residual / np.sum((density - density.mean()) ** 2))
-    return MeasuredElasticity(elasticity, jamming, r_squared)
+    largest = 1.0 - jamming / max(path["solid_fraction"].max() for path in paths)
+    on_path = bool(jamming > max(path["solid_fraction"][1] for path in paths))
+    return MeasuredElasticity(elasticity, jamming, r_squared, float(largest), on_path)
