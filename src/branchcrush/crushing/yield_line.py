@@ -52,7 +52,8 @@ class YieldLine:
         self.form, self.elasticity = form, elasticity
         self.resistance, self.control = resistance, control
         self.known: dict[float, float] = {}
-        knots = form.knots
+        knots = np.union1d(form.knots, resistance.knots)
+        knots = knots[knots <= form.knots[-1]]
         rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
         if knots[-1] == 1.0:  # there a resistance may be infinite
