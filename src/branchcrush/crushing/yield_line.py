@@ -1,6 +1,6 @@
 """The load at which each C yields: the line along which crushing goes on."""
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,10 @@ Control = Literal["strain", "stress"]
 _HALVINGS = 40
 # Places on each smooth piece at which the yield line is looked at.
 _LOOKS = 17
+# How often where crushing ends at a peak of the driving force: more would be rounding.
+_NEAR = 30
+# Each divides by 16 how far the end of the line is known.
+_ROUNDS = 12
 
 
 class YieldLine:
@@ -34,6 +38,8 @@ class YieldLine:
         C between which the line is smooth [-].
     looks, loads : ndarray
         C on every piece, and the loads at which they yield; infinite where one never does.
+    known : dict of float
+        Total strains at which single C yield, each looked for once.
     """
 
     def __init__(
@@ -45,22 +51,45 @@ class YieldLine:
     ) -> None:
         self.form, self.elasticity = form, elasticity
         self.resistance, self.control = resistance, control
-        knots = form.knots
+        self.known: dict[float, float] = {}
+        knots = np.union1d(form.knots, resistance.knots)
+        knots = knots[knots <= form.knots[-1]]
         rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
         if knots[-1] == 1.0:  # there a resistance may be infinite
             self.pieces = self.pieces[:-1]
         self.looks = self._places()
+        end = self._last_yielding()
+        if end < self.pieces[-1]:
+            # The line is as steep there as a root is.
+            near = end - end * 0.5 ** np.arange(1, _NEAR + 1)
+            self._end_at(end, near)
         end = self._last_admissible()
         if end < self.pieces[-1]:
-            self.pieces = np.append(self.pieces[self.pieces < end], end)
-            self.looks = self._places()
+            self._end_at(end)
         self.loads = self.load_at(self.looks)
+
+    def _end_at(self, end: float, near: ArrayLike = ()) -> None:
+        pieces = np.union1d(self.pieces, near)
+        self.pieces = np.append(pieces[pieces < end], end)
+        self.looks = self._places()
 
     def _places(self) -> NDArray:
         inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
         looks = self.pieces[:-1, None] + np.diff(self.pieces)[:, None] * inner
         return np.append(looks.ravel(), self.pieces[-1])
+
+    def _last_yielding(self) -> float:
+        """Return the C up to which each one yields at some strain."""
+        between = self.looks
+        for _ in range(_ROUNDS):
+            never = np.flatnonzero(np.isinf(self.strain_at(between)))
+            if not never.size:
+                return between[-1]
+            if never[0] == 0:
+                return between[0]
+            between = np.linspace(between[never[0] - 1], between[never[0]], _LOOKS)
+        return between[0]
 
     def _last_admissible(self) -> float:
         """Return the C up to which crushing sets energy free on the yield line."""
@@ -81,6 +110,14 @@ class YieldLine:
 
     def strain_at(self, crushing: ArrayLike) -> NDArray:
         """Return the total strain at which each C yields."""
+        if np.ndim(crushing) > 0:
+            return self._strain_at(crushing)
+        one = np.asarray(crushing).item()
+        if one not in self.known:
+            self.known[one] = float(self._strain_at(one))
+        return np.asarray(self.known[one])
+
+    def _strain_at(self, crushing: ArrayLike) -> NDArray:
         elastic = self.resistance.yield_strain(crushing, self.form, self.elasticity)
         reachable = np.where(np.isfinite(elastic), elastic, 0.0)
         strain = self.form.total_strain(reachable, crushing)
@@ -100,6 +137,18 @@ class YieldLine:
             return np.broadcast_to(load, np.shape(crushing)).astype(float)
         elastic = self.elasticity.strain_at_pressure(load / self.form.factor.value(crushing))
         return self.form.total_strain(elastic, crushing)
+
+    def beyond(self, crushing: ArrayLike, elastic: float, load: float | None = None) -> NDArray:
+        """Return a number above 0 where the elastic strain is more than one.
+
+        On the yield line, or under one load, at each C.
+        """
+        if load is None:
+            strain = self.form.total_strain(elastic, crushing)
+            return -self.resistance.excess(strain, crushing, self.form, self.elasticity)
+        if self.control == "strain":
+            return self.form.elastic_strain(load, crushing) - elastic
+        return load - self.form.factor.value(crushing) * self.elasticity.pressure(elastic)
 
     def holding(self, load: float, low: float, high: float) -> float:
         """Return the C between two that yields at a load; `high` holds it and `low` does not."""
@@ -125,3 +174,56 @@ class YieldLine:
         best = minimize_scalar(lambda crushing: -float(self.load_at(crushing)), **bounds).x
         ends = np.array([low, best, high])
         return float(ends[np.argmax(self.load_at(ends))])
+
+
+class CompressionLine(NamedTuple):
+    """The states in which crushing goes on; arrays of the shape of C, nan where it never does."""
+
+    elastic_strain: NDArray  # eps_e [-]
+    stress: NDArray  # sigma [Pa]
+    void_ratio: NDArray  # e [-]
+
+
+def compression_line(
+    form: ModelForm,
+    crushing: ArrayLike,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    jamming: float,
+) -> CompressionLine:
+    r"""Return stress and void ratio while crushing goes on, from gradings alone.
+
+    .. math:: e = \frac{1 - \epsilon_e}{\phi_J} - 1, \qquad \sigma = g\, p_0(\epsilon_e)
+
+    Parameters
+    ----------
+    form : ModelForm
+    crushing : array_like
+        C, any shape [-].
+    elasticity : Elasticity
+    resistance : Resistance
+    jamming : float
+        phi_J before crushing [-].
+
+    Returns
+    -------
+    CompressionLine
+
+    Examples
+    --------
+    >>> from branchcrush.crushing.curves import LinearCurve
+    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
+    >>> from branchcrush.crushing.resistance import ElasticStrainLimit
+    >>> denser = ModelForm(LinearCurve(-1.0), LinearCurve(-0.2))
+    >>> line = compression_line(
+    ...     denser, [0.0, 1.0], PowerLawElasticity(1e9, 1.0), ElasticStrainLimit(0.01), 0.64
+    ... )
+    >>> line.stress.tolist(), line.void_ratio.round(4).tolist()
+    ([10000000.0, 20000000.0], [0.5469, 0.2891])
+    """
+    crushing = np.asarray(crushing, float)
+    elastic = resistance.yield_strain(crushing, form, elasticity)
+    elastic = np.where(np.isfinite(elastic), elastic, np.nan)
+    stress = form.factor.value(crushing) * elasticity.pressure(elastic)
+    density = jamming * form.jamming.value(crushing)
+    return CompressionLine(elastic, stress, (1.0 - elastic) / density - 1.0)
