@@ -15,10 +15,11 @@ _NEAR = 0.08
 def elastic_law_table(paths: Sequence[pd.DataFrame], measured: MeasuredElasticity) -> pd.DataFrame:
     r"""Return the stress of the packings and what of it the elastic law gives back, state by state.
 
-    .. math:: \sigma_{DEM} = \frac{d\Psi_0}{d\epsilon} + \sigma_r, \qquad
-        W = \Psi_0 + D, \qquad \Psi_0 = \frac{E}{V_J}
+    .. math:: \sigma = -\frac{dE}{dV} + \sigma_r
+        = \frac{d\Psi_0}{d\epsilon} + \sigma_m + \sigma_r, \qquad W = \frac{E}{V_J} + D
 
-    sigma_r is what rearrangement takes. Volumes at jamming are V_J = V phi/phi_J.
+    sigma_r is what rearrangement takes, sigma_m by how much the law misses the states' own slope.
+    Volumes at jamming are V_J = V phi/phi_J.
 
     Parameters
     ----------
@@ -48,7 +49,8 @@ def elastic_law_table(paths: Sequence[pd.DataFrame], measured: MeasuredElasticit
             "mean_stress_Pa": means["mean_stress_Pa"],
             "law_stress_Pa": pressure,
             "energy_slope_Pa": slope,
-            "rearrangement_stress_Pa": means["mean_stress_Pa"] - pressure,
+            "misfit_stress_Pa": slope - pressure,
+            "rearrangement_stress_Pa": means["mean_stress_Pa"] - slope,
             "law_energy_J_per_m3": measured.law.energy(strain),
             "elastic_energy_J_per_m3": stored,
             "work_J_per_m3": work,
@@ -70,12 +72,12 @@ def rearrangement_sentence(table: pd.DataFrame) -> str:
     -------
     str
     """
-    below = 100.0 * table["rearrangement_stress_Pa"] / table["mean_stress_Pa"]
     # A slope at the last state would rest on one side alone.
-    slope = (table["energy_slope_Pa"] / table["mean_stress_Pa"])[1:-1]
+    slope = (100.0 * table["energy_slope_Pa"] / table["mean_stress_Pa"])[:-1]
+    law = 100.0 * table["law_stress_Pa"] / table["mean_stress_Pa"]
     near = table["volumetric_strain"] <= _NEAR
     parts = [
-        f"{_range(below[rows])} % below the packings' mean stress {where}"
+        f"{_range(law[rows])} % {where}"
         for rows, where in (
             (~near, f"beyond a strain of {_NEAR:g}"),
             (near, "nearer to jamming"),
@@ -84,9 +86,9 @@ def rearrangement_sentence(table: pd.DataFrame) -> str:
     ]
     last = table.iloc[-1]
     share = 100.0 * last["dissipated_J_per_m3"] / last["work_J_per_m3"]
-    told = f"The stress of the elastic law, dΨ₀/dε, is {' and '.join(parts)}"
+    told = f"Of the packings' mean stress the elastic law gives back dΨ₀/dε, {' and '.join(parts)}"
     if slope.size:
-        told += f"; the slope of the energy of the packings, −dE/dV, is {_range(slope, 2)} of it"
+        told += f"; the energies of the states themselves give back −dE/dV, {_range(slope)} %"
     return (
         f"{told}. The rest rearranges grains and is lost: {share:.1f} % of the work, "
         f"{last['dissipated_J_per_m3']:.3g} of {last['work_J_per_m3']:.3g} J/m³ at the end, what "
@@ -94,6 +96,6 @@ def rearrangement_sentence(table: pd.DataFrame) -> str:
     )
 
 
-def _range(values: pd.Series, digits: int = 0) -> str:
-    low, high = f"{values.min():.{digits}f}", f"{values.max():.{digits}f}"
+def _range(values: pd.Series) -> str:
+    low, high = f"{values.min():.0f}", f"{values.max():.0f}"
     return low if low == high else f"{low} to {high}"
