@@ -38,6 +38,10 @@ class Resistance(Protocol):
     ) -> NDArray:
         """Return the driving force at which C grows [J/m3]."""
 
+    @property
+    def knots(self) -> NDArray:
+        """C between which it is smooth [-]."""
+
 
 @dataclass(frozen=True)
 class CriticalEnergy:
@@ -95,6 +99,11 @@ class CriticalEnergy:
     ) -> NDArray:
         """Return `resistance`, whatever the form and the elastic law."""
         return self.resistance(crushing)
+
+    @property
+    def knots(self) -> NDArray:
+        """The beginning: at C = 1 it is infinite."""
+        return np.array([0.0])
 
     def excess(
         self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
@@ -258,3 +267,8 @@ class ElasticStrainLimit:
         elastic = self.yield_strain(crushing, form, elasticity)
         strain = form.total_strain(elastic, crushing)
         return form.driving_force(strain, crushing, elasticity)
+
+    @property
+    def knots(self) -> NDArray:
+        """Those of the change."""
+        return self.change.knots
