@@ -46,8 +46,8 @@ def data_of(settings):
 
 def history_files(wildcards):
     """Return the file of the user's history of loads, if there is one."""
-    history = SETTINGS.thermodynamics.history
-    return [local(history.file)] if history and history.file else []
+    file = SETTINGS.thermodynamics.history.file
+    return [local(file)] if file else []
 
 
 def of_seeds(file, of, seeds):

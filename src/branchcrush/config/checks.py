@@ -128,9 +128,10 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
 
 def _history_problems(config):
     """Return what is wrong with the file of a history."""
-    history = config.thermodynamics.history if config else None
+    if config is None:
+        return []
     try:
-        history_loads(history and history.model_dump())
+        history_loads(config.thermodynamics.history.model_dump())
     except GradingError as error:
         return [f"config: thermodynamics.history.file: {line}" for line in str(error).splitlines()]
     return []

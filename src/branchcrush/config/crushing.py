@@ -38,7 +38,7 @@ class Thermodynamics(Section):
         "the strain, its exponent fitted or that of linear or Hertz's contacts; a modulus that "
         "grows with pressure; or through every state.",
     )
-    pressure_exponent: number(least=0, below=1) = Field(
+    pressure_exponent: number(least=0, most=0.99) = Field(
         0.5,
         description="Exponent q of the modulus K = K_0 (p/p_0)^q, with elasticity: "
         "pressure_dependent; K_0 is fitted [-].",
@@ -46,8 +46,8 @@ class Thermodynamics(Section):
     reference_pressure: number(above=0, most=1e15, unit="Pa") = Field(
         1.0e5, description="Pressure p_0 at which the modulus of the elastic law is told [Pa]."
     )
-    history: History | None = Field(
-        None,
+    history: History = Field(
+        History(),
         description="A history of strain or stress of your own, beside the loading and unloading.",
     )
     resistance: Literal["critical_energy", "elastic_strain"] = Field(

@@ -73,11 +73,12 @@ class History(Section):
     @model_validator(mode="after")
     def _one_way(self) -> "History":
         given = [key for key in ("strain", "stress", "file") if getattr(self, key) is not None]
-        if len(given) != 1:
+        of_file = self.column is not None or self.unit is not None
+        if len(given) > 1 or (of_file and not given):
             which = f"{' and '.join(given)} are given" if given else "none is given"
             raise refusal(f"{_WAYS}; {which}")
         if self.file is None:
-            if self.column is not None or self.unit is not None:
+            if of_file:
                 raise refusal(
                     f"column and unit are for a file: leave them out, a {given[0]} here is in "
                     f"[{'-' if given == ['strain'] else 'Pa'}]"
@@ -89,18 +90,18 @@ class History(Section):
         return self
 
 
-def history_loads(section: Mapping[str, Any] | None) -> tuple[str, NDArray] | None:
+def history_loads(section: Mapping[str, Any]) -> tuple[str, NDArray] | None:
     """Return what loads are and the loads themselves, of a section as plain values.
 
     Parameters
     ----------
-    section : mapping, optional
-        Of a checked configuration.
+    section : mapping
+        Of a checked configuration; None at keys that are left out.
 
     Returns
     -------
     tuple of str and ndarray, or None
-        "strain" [-] or "stress" [Pa], and the loads.
+        "strain" [-] or "stress" [Pa], and the loads; None where there is no history.
 
     Raises
     ------
@@ -113,10 +114,10 @@ def history_loads(section: Mapping[str, Any] | None) -> tuple[str, NDArray] | No
     >>> quantity, loads.tolist()
     ('stress', [1000000.0, 0.0])
     """
-    if section is None:
-        return None
     if section.get("file") is not None:
         quantity = section["column"]
         return quantity, read_history(section["file"], quantity, section["unit"])
-    quantity = "strain" if section.get("strain") is not None else "stress"
-    return quantity, np.array(section[quantity], float)
+    for quantity in UNITS:
+        if section.get(quantity) is not None:
+            return quantity, np.array(section[quantity], float)
+    return None

@@ -68,7 +68,10 @@ def read_history(path: str | PathLike[str], quantity: str, unit: str) -> NDArray
     if not body:
         refuse(path, [f"line 1: no numbers in the file; give one {quantity} on each line"])
     place = _column(path, head, body, quantity)
-    said = _unit_said(head, place)
+    # Blanks part the words above a column that stands alone.
+    alone = max(len(line.cells) for line in body) == 1
+    words = _words([Line(0, [" ".join(line.cells)]) for line in head] if alone else head, place)
+    said = next((unit for unit, word in _SAID.items() if re.search(word, words)), None)
     problems = []
     if said and said != unit:
         problems.append(
@@ -151,8 +154,3 @@ def _column(
 def _words(head: Sequence[Line], place: int) -> str:
     """Return what stands above a column."""
     return plain_words(" ".join(line.cells[place] for line in head if place < len(line.cells)))
-
-
-def _unit_said(head: Sequence[Line], place: int) -> str | None:
-    words = _words(head, place)
-    return next((unit for unit, word in _SAID.items() if re.search(word, words)), None)
