@@ -17,7 +17,8 @@ from pydantic import (
 )
 
 from branchcrush.config.compression import DENSEST, Contact, LinearContact, Loading
-from branchcrush.config.evaluation import EnergySplit, Figures, Thermodynamics
+from branchcrush.config.crushing import Thermodynamics
+from branchcrush.config.evaluation import EnergySplit, Figures
 from branchcrush.config.fields import (
     Allowed,
     Number,

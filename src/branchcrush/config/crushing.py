@@ -1,0 +1,55 @@
+"""The configuration of the crushing model: its forms, who carries load, and what resists."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from branchcrush.config.fields import Section, number
+from branchcrush.crushing.resistance import LARGEST
+from branchcrush.gradings.rods import GAP, PUBLISHED_GAP
+
+
+class Thermodynamics(Section):
+    """The crushing model; all of its forms are computed."""
+
+    ultimate_alpha: number(above=0, below=3) = Field(
+        2.6, description="Fractal dimension of the ultimate grading, on the sample's sizes [-]."
+    )
+    form: Literal[
+        "moving_jamming", "paper", "density", "measured_contacts", "einav", "tengattini"
+    ] = Field(
+        "moving_jamming",
+        description="Form of the model that stands on the front; the others stand beside it.",
+    )
+    network: Literal["rods", "parking"] = Field(
+        "rods",
+        description="Who carries load in the gradings that crushing leads through: rods that push, "
+        "or random parking.",
+    )
+    rod_gap: number(above=0, most=10) = Field(
+        GAP,
+        description="Gaps beside a rod over its length, f, where the rod map jams; "
+        f"{PUBLISHED_GAP:g} was published [-].",
+    )
+    resistance: Literal["critical_energy", "elastic_strain"] = Field(
+        "critical_energy",
+        description="What must be reached for crushing to go on: a critical energy, or an elastic "
+        "strain.",
+    )
+    critical_energy: number(above=0, most=1e15, unit="J/m3") = Field(
+        2.0e5, description="Energy per volume at which crushing begins, E_c0 [J/m3]."
+    )
+    hardening_exponent: number(above=0, most=100) = Field(
+        2.0, description="Exponent s of the resistance to crushing, E_c0/(1 − C)^s [-]."
+    )
+    elastic_strain: number(above=0, below=LARGEST) = Field(
+        0.0125,
+        description="Elastic strain at which crushing begins, ε_0, with resistance: elastic_strain "
+        "[-].",
+    )
+    strength_exponent: number(least=0, most=10) = Field(
+        1.0,
+        description="Exponent b with which the strength of a grain falls with its size; the "
+        "elastic strain of crushing goes as d^(1 − b) with a constant stiffness, as d^(−2b/3) with "
+        "Hertz's contacts [-].",
+    )
