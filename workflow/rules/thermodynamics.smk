@@ -1,4 +1,5 @@
-# Thermodynamics: exponent, gradings and measured energy -> the curves of the crushing model.
+# Thermodynamics: exponent, gradings, contact numbers and measured energy -> every form of the
+# crushing model.
 
 
 rule thermodynamics:
@@ -6,11 +7,13 @@ rule thermodynamics:
         paths=of_all_seeds("path.csv"),
         fit="results/{sample}/energy_split.json",
         certificate="results/{sample}/certificate.csv",
+        numbers="results/{sample}/contact_numbers.csv",
         data=data_files,
     output:
         curves=table(
             "thermodynamics", "curves of the crushing model at fixed and evolving crushing"
         ),
+        forms=table("crushing_forms", "what every form of the crushing model says at each C"),
         summary="results/{sample}/thermodynamics.json",
         record="results/{sample}/made/thermodynamics.json",
     log:
@@ -21,7 +24,7 @@ rule thermodynamics:
         "../envs/branchcrush.yaml"
     params:
         code=code("thermodynamics"),
-        sample=section("grading"),
+        sample=section("grading", "contact"),
         thermodynamics=SETTINGS.thermodynamics.model_dump(),
     script:
         "../scripts/thermodynamics.py"

@@ -203,8 +203,10 @@ class _Walk:
             if half <= 0.0:
                 continue
             fitted = np.cos(np.pi * np.arange(_ORDER + 1) / _ORDER)
-            at = middle + half * np.concatenate([_NODES, fitted])
+            # The first of the fitted ones is the end.
+            at = np.concatenate([middle + half * _NODES, [end], middle + half * fitted[1:]])
             strain = line.strain_at(at) if load is None else line.strain_under(load, at)
+            at_end = float(strain[_NODES.size])
             series = chebyshev.chebfit(fitted, strain[_NODES.size :], _ORDER)
             slope = chebyshev.chebval(_NODES, chebyshev.chebder(series))
             at, strain = at[: _NODES.size], strain[: _NODES.size]
@@ -213,9 +215,9 @@ class _Walk:
             self.work += float(_WEIGHTS @ (stress * slope))
             self.dissipated += half * float(_WEIGHTS @ form.driving_force(strain, at, law))
             self.compaction += half * float(_WEIGHTS @ (stress * moved))
-            self.crushing = end
-            at_end = line.strain_at(end) if load is None else line.strain_under(load, end)
-            self.strain = float(at_end)
+            self.crushing, self.strain = end, at_end
+            if load is None:
+                line.known[end] = at_end
 
     def _load_to(self, strain: float) -> None:
         """Go to a strain at the C that is, and add up the work."""

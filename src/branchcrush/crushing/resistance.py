@@ -3,6 +3,7 @@
 A resistance says at which elastic strain the grains of a grading begin to crush further.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,6 +17,7 @@ from branchcrush.crushing.forms import ModelForm
 # Where a yield strain is sought: elastic strains that no contact law is meant to leave.
 _LEAST, LARGEST = 1e-8, 0.5
 _STEPS = 161
+_MOST_SEARCHES, _ROUNDING = 100, 4e-16
 
 
 class Resistance(Protocol):
@@ -28,6 +30,11 @@ class Resistance(Protocol):
 
     def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
         """Return the least elastic strain at which C grows [-]; infinite where it never does."""
+
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return the driving force at which C grows [J/m3]."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +88,12 @@ class CriticalEnergy:
         """
         return self.energy / np.subtract(1.0, crushing) ** self.hardening
 
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return `resistance`, whatever the form and the elastic law."""
+        return self.resistance(crushing)
+
     def excess(
         self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
     ) -> NDArray:
@@ -118,8 +131,6 @@ class CriticalEnergy:
         ndarray
             eps_e [-]; infinite where the driving force stays too small up to 0.5.
         """
-        from scipy.optimize.elementwise import find_root  # slow to import, and few jobs need it
-
         crushing = np.asarray(crushing, float)
         at = crushing.reshape(-1, 1)
         steps = np.geomspace(_LEAST, LARGEST, _STEPS)
@@ -127,16 +138,37 @@ class CriticalEnergy:
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
 
-        above = excess(steps, at) > 0.0
-        yields = above.any(axis=1)
-        first = np.maximum(above.argmax(axis=1)[yields], 1)
+        looks = excess(steps, at)
+        yields = np.flatnonzero((looks > 0.0).any(axis=1))
+        first = np.maximum((looks[yields] > 0.0).argmax(axis=1), 1)
+        between = [(np.log(steps[k]), looks[yields, k]) for k in (first - 1, first)]
+        roots = _roots(lambda logs: excess(np.exp(logs), at[yields, 0]), *between)
         result = np.full(at.size, np.inf)
-        if yields.any():
-            ends = steps[first - 1], steps[first]
-            tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
-            found = find_root(excess, ends, args=(at[yields, 0],), tolerances=tolerances)
-            result[yields] = found.x
+        result[yields] = np.exp(roots)
         return result.reshape(crushing.shape)
+
+
+def _roots(
+    function: Callable[[NDArray], NDArray],
+    before: tuple[NDArray, NDArray],
+    after: tuple[NDArray, NDArray],
+) -> NDArray:
+    """Return where a function is 0, each between two places and values of other signs.
+
+    Regula falsi, Illinois. scipy's search for many roots at once takes six times as long, nearly
+    all of it for things other than the function, and it is most of what a history takes.
+    """
+    (low, low_value), (high, high_value) = before, after
+    for _ in range(_MOST_SEARCHES):
+        middle = high - high_value * (high - low) / (high_value - low_value)
+        value = function(middle)
+        stays = np.sign(value) == np.sign(high_value)
+        low = np.where(stays, low, high)
+        low_value = np.where(stays, 0.5 * low_value, high_value)
+        moved, high, high_value = np.abs(middle - high), middle, value
+        if (moved <= _ROUNDING * np.abs(high)).all():
+            break
+    return high
 
 
 @dataclass(frozen=True)
@@ -189,3 +221,11 @@ class ElasticStrainLimit:
     def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
         """Return the elastic strain at which C grows, as `CriticalEnergy.yield_strain` does."""
         return self.strain * self.change.value(crushing)
+
+    def critical_force(
+        self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
+    ) -> NDArray:
+        """Return the driving force at the limit, which is what the grains must resist with."""
+        elastic = self.yield_strain(crushing, form, elasticity)
+        strain = form.total_strain(elastic, crushing)
+        return form.driving_force(strain, crushing, elasticity)

@@ -1,6 +1,6 @@
 """The load at which each C yields: the line along which crushing goes on."""
 
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,6 +34,8 @@ class YieldLine:
         C between which the line is smooth [-].
     looks, loads : ndarray
         C on every piece, and the loads at which they yield; infinite where one never does.
+    known : dict of float
+        Total strains at which single C yield, each looked for once.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class YieldLine:
     ) -> None:
         self.form, self.elasticity = form, elasticity
         self.resistance, self.control = resistance, control
+        self.known: dict[float, float] = {}
         knots = form.knots
         rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
@@ -81,6 +84,14 @@ class YieldLine:
 
     def strain_at(self, crushing: ArrayLike) -> NDArray:
         """Return the total strain at which each C yields."""
+        if np.ndim(crushing) > 0:
+            return self._strain_at(crushing)
+        one = np.asarray(crushing).item()
+        if one not in self.known:
+            self.known[one] = float(self._strain_at(one))
+        return np.asarray(self.known[one])
+
+    def _strain_at(self, crushing: ArrayLike) -> NDArray:
         elastic = self.resistance.yield_strain(crushing, self.form, self.elasticity)
         reachable = np.where(np.isfinite(elastic), elastic, 0.0)
         strain = self.form.total_strain(reachable, crushing)
@@ -125,3 +136,56 @@ class YieldLine:
         best = minimize_scalar(lambda crushing: -float(self.load_at(crushing)), **bounds).x
         ends = np.array([low, best, high])
         return float(ends[np.argmax(self.load_at(ends))])
+
+
+class CompressionLine(NamedTuple):
+    """The states in which crushing goes on; arrays of the shape of C, nan where it never does."""
+
+    elastic_strain: NDArray  # eps_e [-]
+    stress: NDArray  # sigma [Pa]
+    void_ratio: NDArray  # e [-]
+
+
+def compression_line(
+    form: ModelForm,
+    crushing: ArrayLike,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    jamming: float,
+) -> CompressionLine:
+    r"""Return stress and void ratio while crushing goes on, from gradings alone.
+
+    .. math:: e = \frac{1 - \epsilon_e}{\phi_J} - 1, \qquad \sigma = g\, p_0(\epsilon_e)
+
+    Parameters
+    ----------
+    form : ModelForm
+    crushing : array_like
+        C, any shape [-].
+    elasticity : Elasticity
+    resistance : Resistance
+    jamming : float
+        phi_J before crushing [-].
+
+    Returns
+    -------
+    CompressionLine
+
+    Examples
+    --------
+    >>> from branchcrush.crushing.curves import LinearCurve
+    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
+    >>> from branchcrush.crushing.resistance import ElasticStrainLimit
+    >>> denser = ModelForm(LinearCurve(-1.0), LinearCurve(-0.2))
+    >>> line = compression_line(
+    ...     denser, [0.0, 1.0], PowerLawElasticity(1e9, 1.0), ElasticStrainLimit(0.01), 0.64
+    ... )
+    >>> line.stress.tolist(), line.void_ratio.round(4).tolist()
+    ([10000000.0, 20000000.0], [0.5469, 0.2891])
+    """
+    crushing = np.asarray(crushing, float)
+    elastic = resistance.yield_strain(crushing, form, elasticity)
+    elastic = np.where(np.isfinite(elastic), elastic, np.nan)
+    stress = form.factor.value(crushing) * elasticity.pressure(elastic)
+    density = jamming * form.jamming.value(crushing)
+    return CompressionLine(elastic, stress, (1.0 - elastic) / density - 1.0)

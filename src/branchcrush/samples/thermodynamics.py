@@ -1,37 +1,38 @@
-"""Rule thermodynamics: the crushing model of the paper on the elastic energy that was measured."""
+"""Rule thermodynamics: every form of the crushing model on the elastic energy of a sample."""
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from branchcrush.branches.random_contacts import random_contact_moment
-from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
-from branchcrush.crushing.law import CrushingLaw
-from branchcrush.crushing.model import reference_energy, theta
-from branchcrush.crushing.path import crushing_path
+from branchcrush.crushing.admissibility import admissibility, least_hardening_exponent
+from branchcrush.crushing.curves import TabulatedCurve
+from branchcrush.crushing.forms import ModelForm
+from branchcrush.crushing.paper_form import reference_energy
+from branchcrush.crushing.resistance import CriticalEnergy, ElasticStrainLimit, Resistance
 from branchcrush.energy.fit import EnergySplitFit
-from branchcrush.errors import AdmissibilityError, FitError
+from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.gradings.curves import ultimate_grading
 from branchcrush.gradings.distribution import Grading
-from branchcrush.samples.ensemble import certified_loading, on_the_way_in, stacked
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.samples.crushing_curves import form_curves, form_table
+from branchcrush.samples.elastic_law import MeasuredElasticity, measured_elasticity
+from branchcrush.samples.ensemble import certified_loading, on_the_way_in
+from branchcrush.samples.forms_of_sample import FormsOfSample, degenerate, forms_of, untested
 from branchcrush.statistics.intervals import Interval
 
-_POINTS = 200
-# The unloading leg ends here, as a share of the largest strain.
-_UNLOADED_TO = 0.6
-FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
-
-
-class MeasuredElasticity(NamedTuple):
-    """The elastic law of a sample before crushing."""
-
-    law: PowerLawElasticity
-    jamming: float  # phi_J [-]
-    r_squared: float  # of the energies [-]
+# What is told of each form, and of that on the front again at the top.
+_OF_A_FORM = (
+    "admissible",
+    "least_hardening_exponent",
+    "hardens_at_onset",
+    "yield_strain",
+    "yield_stress_Pa",
+    "yields_on_path",
+    "crushing_at_end",
+)
 
 
 def crushing_results(
@@ -39,12 +40,11 @@ def crushing_results(
     certificate: pd.DataFrame,
     paths: Sequence[pd.DataFrame],
     initial: Grading,
-    *,
-    ultimate_alpha: float,
-    critical_energy: float,
-    hardening_exponent: float,
-) -> tuple[pd.DataFrame | dict, dict]:
-    """Return the curves of the crushing model with the measured exponent and elastic energy.
+    law: LinearContact | HertzContact,
+    numbers: pd.DataFrame,
+    settings: Mapping[str, Any],
+) -> tuple[pd.DataFrame | dict, pd.DataFrame | dict, dict]:
+    """Return the crushing model of a sample, in all its forms.
 
     Parameters
     ----------
@@ -55,210 +55,195 @@ def crushing_results(
         The `path.csv` of each seed.
     initial : Grading
         Target.
-    ultimate_alpha : float
-        Of the fractal grading that crushing leads to [-].
-    critical_energy, hardening_exponent : float
-        As for `crushing_curves`.
+    law : LinearContact or HertzContact
+    numbers : DataFrame
+        `contact_numbers.csv`.
+    settings : mapping
+        The keys of the section thermodynamics.
 
     Returns
     -------
-    curves : DataFrame
-        From `crushing_curves`, or why there are none.
+    curves, table : DataFrame
+        `thermodynamics.csv` and `crushing_forms.csv`, or why there are none.
     summary : dict
+        `thermodynamics.json`.
     """
     try:
         if fit.reason is not None:
             raise FitError(fit.reason)
         used, _ = certified_loading(certificate, paths)
-        return crushing_curves(
-            on_the_way_in(paths, used),
-            fit.exponent,
-            initial,
-            ultimate_grading(initial, ultimate_alpha),
-            fit.reference_length,
-            critical_energy,
-            hardening_exponent,
-        )
-    except (FitError, AdmissibilityError) as error:
-        return no_data(error)
+        ultimate = ultimate_grading(initial, settings["ultimate_alpha"])
+        if ultimate is None:
+            raise FitError(
+                "grains of a single size have no finer grading of their range to crush to"
+            )
+        measured = measured_elasticity(on_the_way_in(paths, used))
+        forms = forms_of(initial, ultimate, fit.exponent.estimate, law, numbers, settings)
+    except FitError as error:
+        nothing, summary = no_data(error)
+        return nothing, nothing, summary
+    return crushing_model(forms, measured, fit.exponent, fit.reference_length, law, settings)
 
 
-def measured_elasticity(paths: Sequence[pd.DataFrame]) -> MeasuredElasticity:
-    r"""Fit the elastic law to the energy per volume of all seeds along the loading path.
-
-    .. math:: \Psi_0 = \frac{A}{m+1} \epsilon^{m+1}, \quad \epsilon = 1 - \phi_J/\phi
-
-    Psi_0 is per volume at jamming and eps the volumetric strain from there, so dPsi_0/deps is
-    the mean stress.
-
-    Parameters
-    ----------
-    paths : list of DataFrame
-        A `path.csv` for each seed.
-
-    Returns
-    -------
-    MeasuredElasticity
-
-    Raises
-    ------
-    FitError
-        When too few states carry load for the fit.
-    """
-    together = stacked(paths)
-    phi = together["solid_fraction"].to_numpy()
-    density = (together["elastic_energy_J"] / together["volume_m3"]).to_numpy()
-    try:
-        elasticity, jamming = fit_elasticity(phi, density)
-    except ValueError as error:
-        raise FitError(f"no elastic law in the loading path: {error}") from error
-    fitted = phi / jamming * elasticity.energy(1.0 - jamming / phi)
-    residual = np.sum((density - fitted) ** 2)
-    r_squared = float(1.0 - residual / np.sum((density - density.mean()) ** 2))
-    return MeasuredElasticity(elasticity, jamming, r_squared)
-
-
-def crushing_curves(
-    paths: Sequence[pd.DataFrame],
+def crushing_model(
+    forms: FormsOfSample,
+    measured: MeasuredElasticity,
     exponent: Interval,
-    initial: Grading,
-    ultimate: Grading | None,
     reference_length: float,
-    critical_energy: float,
-    hardening_exponent: float,
-) -> tuple[pd.DataFrame, dict]:
-    r"""Return the curves of the crushing model without branch density, and their summary.
-
-    .. math:: \psi_r = \Psi_0\, l_r^n / \langle l^n \rangle_0
+    law: LinearContact | HertzContact,
+    settings: Mapping[str, Any],
+) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
+    """Return the curves of every form, its table, and what is to be known of them.
 
     Parameters
     ----------
-    paths : list of DataFrame
-        A `path.csv` for each seed.
+    forms : FormsOfSample
+    measured : MeasuredElasticity
     exponent : Interval
         n of the energy split.
-    initial, ultimate : Grading
-        Gradings on a common support; no ultimate one (None) for a single size.
     reference_length : float
         l_r [m]; it cancels in all but psi_r.
-    critical_energy : float
-        E_c0 [J/m3].
-    hardening_exponent : float
-        s [-].
+    law : LinearContact or HertzContact
+    settings : mapping
+        The keys of the section thermodynamics.
 
     Returns
     -------
-    curves : DataFrame
-        Column `path`: "crushing" is a loading and unloading with C evolving, "fixed" holds C.
+    curves, table : DataFrame
     summary : dict
-
-    Raises
-    ------
-    FitError
-        When too few states carry load.
-    AdmissibilityError
-        When the ultimate grading has the larger moment <l^n>.
     """
-    if ultimate is None:
-        raise FitError("grains of a single size have no finer grading of their range to crush to")
-    measured = measured_elasticity(paths)
-    n = exponent.estimate
-    moments = [random_contact_moment(grading, n) for grading in (initial, ultimate)]
-    law = CrushingLaw(theta(*moments), critical_energy, hardening_exponent)
-    largest = 1.0 - measured.jamming / max(path["solid_fraction"].max() for path in paths)
-
-    def reference(energy):
-        return reference_energy(energy, moments[0], n, reference_length)
-
-    crushing = _crushing_curve(measured.law, law, largest, reference)
-    fixed = _fixed_curves(measured.law, law, largest, reference)
-    summary = {
-        "form": "paper, without branch density",
-        **exponent.named("exponent"),
-        "theta": law.theta,
-        "initial_moment": moments[0],
-        "ultimate_moment": moments[1],
-        "admissible": True,
-        "reference_length_m": reference_length,
-        "elastic_modulus_Pa": measured.law.modulus,
-        "elastic_exponent": measured.law.exponent,
-        "elastic_r_squared": measured.r_squared,
-        "jamming_solid_fraction": measured.jamming,
-        "jamming_on_path": bool(
-            measured.jamming > max(path["solid_fraction"][1] for path in paths)
-        ),
-        **_yield(measured.law, law, largest),
-        "crushing_at_end": float(crushing["crushing"][_POINTS]),
-    }
-    return pd.concat([crushing, *fixed], ignore_index=True), summary
-
-
-def _crushing_curve(
-    elasticity: PowerLawElasticity,
-    law: CrushingLaw,
-    largest: float,
-    reference: Callable[[NDArray], NDArray],
-) -> pd.DataFrame:
-    """Return the way to the largest strain and some of the way back, with C evolving."""
-    loading = np.linspace(0.0, largest, _POINTS + 1)
-    back = np.linspace(largest, _UNLOADED_TO * largest, _POINTS // 4)[1:]
-    path = crushing_path(
-        np.append(loading, back), elasticity, law.theta, law.critical_energy, law.hardening_exponent
-    )
-    return pd.DataFrame(
-        {
-            "path": "crushing",
-            "volumetric_strain": path.strain,
-            "crushing": path.crushing,
-            "elastic_energy_J_per_m3": path.elastic_energy,
-            "reference_energy_J_per_m3": reference(path.elastic_energy),
-            "free_energy_J_per_m3": path.stored,
-            "stress_Pa": path.stress,
-            "driving_force_J_per_m3": path.driving_force,
-            "resistance_J_per_m3": path.resistance,
-            "dissipated_J_per_m3": path.dissipated,
-            "work_J_per_m3": path.work,
-        }
-    )
-
-
-def _fixed_curves(
-    elasticity: PowerLawElasticity,
-    law: CrushingLaw,
-    largest: float,
-    reference: Callable[[NDArray], NDArray],
-) -> list[pd.DataFrame]:
-    """Return the way to the largest strain at each of `FIXED_CRUSHING`."""
-    strain = np.linspace(0.0, largest, _POINTS + 1)
-    energy = elasticity.energy(strain)
-    return [
-        pd.DataFrame(
-            {
-                "path": "fixed",
-                "volumetric_strain": strain,
-                "crushing": crushing,
-                "elastic_energy_J_per_m3": energy,
-                "reference_energy_J_per_m3": reference(energy),
-                "free_energy_J_per_m3": law.free_energy(crushing, energy),
-                "stress_Pa": law.stress(crushing, elasticity.pressure(strain)),
-                "driving_force_J_per_m3": law.driving_force(energy),
-            }
+    resistance = resistance_of(forms, law, settings)
+    curves, tables, told = [], [], {}
+    for name, form in forms.made.items():
+        rows, evolution = form_curves(form, measured.law, resistance, measured.largest)
+        if name == "paper":
+            energy = rows["elastic_energy_J_per_m3"]
+            rows["reference_energy_J_per_m3"] = reference_energy(
+                energy, forms.initial_moment, exponent.estimate, reference_length
+            )
+        curves.append(rows.assign(form=name))
+        tables.append(
+            form_table(form, measured.law, resistance, measured.jamming, measured.largest).assign(
+                form=name
+            )
         )
-        for crushing in FIXED_CRUSHING
-    ]
-
-
-def _yield(elasticity, law, largest):
-    """Return where crushing begins, and whether it hardens there and does so on the path."""
-    bound = law.least_hardening_exponent(elasticity.exponent)
-    strain = float(law.yield_strain(elasticity))
-    return {
-        "largest_strain": largest,
-        "critical_energy_J_per_m3": law.critical_energy,
-        "hardening_exponent": law.hardening_exponent,
-        "least_hardening_exponent": bound,
-        "hardens_at_onset": bool(law.hardening_exponent >= bound),
-        "yield_strain": strain,
-        "yield_stress_Pa": float(elasticity.pressure(strain)),
-        "yields_on_path": bool(strain < largest),
+        told[name] = {
+            "reason": None,
+            **_told(form, measured, resistance, forms.sentences.get(name, [])),
+            "crushing_at_end": float(evolution.crushing.max()),
+        }
+    nothing = {**dict.fromkeys(told[next(iter(told))]), "snaps": [], "sentences": []}
+    for name, reason in forms.missing.items():
+        told[name] = {**nothing, "reason": reason}
+    front = told[settings["form"]]
+    theta = 1.0 - forms.ultimate_moment / forms.initial_moment
+    summary = {
+        "form": settings["form"],
+        "form_reason": front["reason"],
+        "network": settings["network"],
+        "resistance": settings["resistance"],
+        **exponent.named("exponent"),
+        "theta": theta,
+        "initial_moment": forms.initial_moment,
+        "ultimate_moment": forms.ultimate_moment,
+        "paper_degenerate": degenerate(theta),
+        "untested": untested(forms, law),
+        "reference_length_m": reference_length,
+        **measured.summary(),
+        "rod_map_solid_fraction": float(forms.path.solid_fraction[0]),
+        "critical_energy_J_per_m3": settings["critical_energy"],
+        "hardening_exponent": settings["hardening_exponent"],
+        "elastic_strain": settings["elastic_strain"],
+        "strength_exponent": settings["strength_exponent"],
+        **{key: front[key] for key in _OF_A_FORM},
+        "forms": {name: told[name] for name in forms.names},
     }
+    return _ordered(curves), _ordered(tables), summary
+
+
+def resistance_of(
+    forms: FormsOfSample, law: LinearContact | HertzContact, settings: Mapping[str, Any]
+) -> Resistance:
+    r"""Return what holds crushing back, as configured.
+
+    .. math:: \epsilon_e = \epsilon_0 \left(\frac{d_Q}{d_{Q0}}\right)^x, \qquad
+        x = 1 - b \text{ or } -2b/3
+
+    Parameters
+    ----------
+    forms : FormsOfSample
+        With d_Q of the network along its path.
+    law : LinearContact or HertzContact
+        With a constant stiffness x is 1 - b, with Hertz's contacts -2b/3.
+    settings : mapping
+        The keys of the section thermodynamics.
+
+    Returns
+    -------
+    Resistance
+    """
+    if settings["resistance"] == "critical_energy":
+        return CriticalEnergy(settings["critical_energy"], settings["hardening_exponent"])
+    strength = settings["strength_exponent"]
+    power = -2.0 * strength / 3.0 if isinstance(law, HertzContact) else 1.0 - strength
+    change = forms.path.contact_diameter**power
+    known = tuple(forms.path.crushing.tolist())
+    return ElasticStrainLimit(
+        settings["elastic_strain"], TabulatedCurve(known, tuple(change.tolist()))
+    )
+
+
+def _told(
+    form: ModelForm,
+    measured: MeasuredElasticity,
+    resistance: Resistance,
+    sentences: Sequence[str],
+) -> dict[str, Any]:
+    """Return what is told of a form."""
+    found = admissibility(form, measured.law, resistance, measured.largest)
+    strain = float(resistance.yield_strain(0.0, form, measured.law))
+    yields = np.isfinite(strain)
+    least = None
+    if yields and isinstance(resistance, CriticalEnergy):
+        least = least_hardening_exponent(form, measured.law, strain)
+    stays = form.jamming.value(form.knots[-1]) == 1.0
+    return {
+        "theta": 1.0 - float(form.factor.value(1.0)) if stays else None,
+        "admissible": found.admissible,
+        "inadmissible_from": found.costs[0][0] if found.costs else None,
+        "hardens": not found.snaps,
+        "snaps": [snap.crushing for snap in found.snaps],
+        "least_hardening_exponent": least,
+        "hardens_at_onset": found.hardens_at_onset if yields else None,
+        "yield_strain": strain if yields else None,
+        "yield_stress_Pa": float(measured.law.pressure(strain)) if yields else None,
+        "yields_on_path": bool(strain < measured.largest),
+        "sentences": [*found.sentences, *sentences],
+    }
+
+
+def _ordered(parts: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """Return tables of all forms as one, the name of the form first."""
+    together = pd.concat(parts, ignore_index=True)
+    order = [column for column in _CURVES if column in together]
+    others = [column for column in together if column not in ("form", *order)]
+    return together[["form", *order, *others]]
+
+
+# The columns of `thermodynamics.csv` but form, some of which only some rows have.
+_CURVES = (
+    "path",
+    "volumetric_strain",
+    "elastic_strain",
+    "crushing",
+    "elastic_energy_J_per_m3",
+    "reference_energy_J_per_m3",
+    "free_energy_J_per_m3",
+    "stress_Pa",
+    "driving_force_J_per_m3",
+    "resistance_J_per_m3",
+    "dissipated_J_per_m3",
+    "plastic_work_J_per_m3",
+    "work_J_per_m3",
+    "tangent_stiffness_Pa",
+)

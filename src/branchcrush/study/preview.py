@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.elasticity import FEWEST_STATES
-from branchcrush.crushing.model import admissibility_problem
+from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from branchcrush.crushing.model import admissibility_problem
+from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.samples.certificate import LIMITS

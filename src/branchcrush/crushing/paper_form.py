@@ -1,12 +1,7 @@
-"""What crushing from one grading to another can release: Eqs. 9 to 15 and 22.
-
-All is in the moments <l^n> of the branch lengths of the two gradings.
-"""
+"""The paper's form in the moments <l^n> of branch lengths: Eqs. 9 to 15 and 22."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from branchcrush.errors import AdmissibilityError
 
 
 def admissibility_problem(initial_moment: float, ultimate_moment: float) -> str | None:
@@ -48,41 +43,6 @@ def admissibility_problem(initial_moment: float, ultimate_moment: float) -> str 
             " or let both reach finer sizes: a smaller grading.min"
         )
     return None
-
-
-def theta(initial_moment: float, ultimate_moment: float) -> float:
-    r"""Return the share of the elastic energy that complete crushing releases.
-
-    .. math:: \theta = 1 - \frac{\langle l^n \rangle_u}{\langle l^n \rangle_0}
-
-    Parameters
-    ----------
-    initial_moment, ultimate_moment : float
-        <l^n>_0 and <l^n>_u, in one unit [m^n].
-
-    Returns
-    -------
-    float
-        From 0 to 1 [-].
-
-    Raises
-    ------
-    AdmissibilityError
-        As `admissibility_problem` says.
-
-    Examples
-    --------
-    >>> theta(1.0, 0.25)
-    0.75
-
-    References
-    ----------
-    Paper, Eqs. 15 and 22.
-    """
-    problem = admissibility_problem(initial_moment, ultimate_moment)
-    if problem:
-        raise AdmissibilityError(problem)
-    return float(1 - ultimate_moment / initial_moment)
 
 
 def reference_energy(

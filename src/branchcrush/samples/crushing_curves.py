@@ -1,0 +1,176 @@
+"""The tables of the crushing model: curves of a form along its paths, and over C."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from branchcrush.crushing.admissibility import force_over_stress, yielding_strain
+from branchcrush.crushing.elasticity import Elasticity
+from branchcrush.crushing.energy_ratios import (
+    ratio_at_equal_strain,
+    ratio_at_equal_stress,
+    ratio_at_equal_total_strain,
+)
+from branchcrush.crushing.evolution import Evolution, evolve
+from branchcrush.crushing.forms import ModelForm
+from branchcrush.crushing.resistance import Resistance
+from branchcrush.crushing.yield_line import YieldLine, compression_line
+
+FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
+# States on the way in and back, at each fixed C, and places of C.
+_IN, _BACK, _FIXED, _PLACES = 60, 10, 40, 51
+# The unloading leg ends here, as a share of the largest elastic strain.
+_UNLOADED_TO = 0.6
+# So near to C = 1 crushing is complete.
+_COMPLETE = 1.0 - 1e-9
+# Beyond the last load that crushing goes on at, so that it does.
+_BEYOND = 1.0 + 1e-9
+
+
+def form_curves(
+    form: ModelForm,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    largest: float,
+    fixed: Sequence[float] = FIXED_CRUSHING,
+) -> tuple[pd.DataFrame, Evolution]:
+    """Return the curves of a form, as far as it is admissible and its elastic law is known.
+
+    Parameters
+    ----------
+    form : ModelForm
+    elasticity : Elasticity
+    resistance : Resistance
+    largest : float
+        The largest elastic strain that the law was measured to [-].
+    fixed : sequence of float
+        C that curves are held at [-].
+
+    Returns
+    -------
+    curves : DataFrame
+        Columns of `thermodynamics.csv` but form and reference energy. Column `path`: "crushing"
+        is a loading and unloading with C evolving, "fixed" holds C.
+    evolution : Evolution
+        Of the first.
+    """
+    line = YieldLine(form, elasticity, resistance)
+    end = _last_strain(line, largest)
+    loading = np.union1d(np.linspace(0.0, end, _IN + 1), np.minimum(line.loads[:1], end))
+    reached = evolve([end], form, elasticity, resistance)
+    elastic = reached.elastic_strain[-1] * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
+    back = form.total_strain(elastic, reached.crushing[-1])
+    evolution = evolve(np.append(loading, back), form, elasticity, resistance)
+    curves = _states(
+        form, elasticity, resistance, "crushing", evolution.strain, evolution.crushing
+    ).assign(
+        dissipated_J_per_m3=evolution.dissipated,
+        plastic_work_J_per_m3=evolution.compaction,
+        work_J_per_m3=evolution.work,
+    )
+    last = line.looks[-1]
+    parts = [curves]
+    for crushing in fixed:
+        if crushing <= (1.0 if last > _COMPLETE else last):
+            strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
+            parts.append(_states(form, elasticity, resistance, "fixed", strain, crushing))
+    return pd.concat(parts, ignore_index=True), evolution
+
+
+def _last_strain(line: YieldLine, largest: float) -> float:
+    """Return the total strain at which C ends, or the elastic strain is the largest."""
+    form = line.form
+    elastic = line.resistance.yield_strain(line.looks, form, line.elasticity)
+    beyond = np.flatnonzero(~(elastic <= largest))
+    if beyond.size:
+        return float(form.total_strain(largest, line.looks[max(beyond[0] - 1, 0)]))
+    if line.looks[-1] > _COMPLETE:
+        return float(form.total_strain(largest, line.looks[-1]))
+    return float(line.loads.max()) * _BEYOND
+
+
+def _states(
+    form: ModelForm,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    path: str,
+    strain: NDArray,
+    crushing: NDArray | float,
+) -> pd.DataFrame:
+    """Return what a form says of some states."""
+    crushing = np.broadcast_to(crushing, strain.shape)
+    elastic = form.elastic_strain(strain, crushing)
+    # At C = 1 a resistance may be infinite, and a limiting density be reached with a jerk.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        critical = resistance.critical_force(crushing, form, elasticity)
+        force = form.driving_force(strain, crushing, elasticity)
+    return pd.DataFrame(
+        {
+            "path": path,
+            "volumetric_strain": strain,
+            "elastic_strain": elastic,
+            "crushing": crushing,
+            "elastic_energy_J_per_m3": elasticity.energy(elastic),
+            "free_energy_J_per_m3": form.free_energy(strain, crushing, elasticity),
+            "stress_Pa": form.stress(strain, crushing, elasticity),
+            "driving_force_J_per_m3": _finite(force),
+            "resistance_J_per_m3": _finite(critical),
+            "tangent_stiffness_Pa": form.tangent_stiffness(strain, crushing, elasticity),
+        }
+    )
+
+
+def form_table(
+    form: ModelForm,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    jamming: float,
+    largest: float,
+) -> pd.DataFrame:
+    """Return what a form says of energy, jamming point and yield at C from 0 to its last one.
+
+    Parameters
+    ----------
+    form : ModelForm
+    elasticity : Elasticity
+    resistance : Resistance
+    jamming : float
+        phi_J before crushing [-].
+    largest : float
+        The largest elastic strain that the law was measured to [-]; energies are compared there.
+
+    Returns
+    -------
+    DataFrame
+        Columns of `crushing_forms.csv` but form.
+    """
+    crushing = np.linspace(0.0, form.knots[-1], _PLACES)
+    line = compression_line(form, crushing, elasticity, resistance, jamming)
+    strain = yielding_strain(form, elasticity, resistance, largest, crushing)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        force = force_over_stress(form, elasticity, strain, crushing)
+    ratio = ratio_at_equal_strain(form, crushing)
+    stress = float(elasticity.pressure(largest))
+    return pd.DataFrame(
+        {
+            "crushing": crushing,
+            "jamming_solid_fraction": jamming * form.jamming.value(crushing),
+            "stiffness_ratio": form.factor.value(crushing),
+            "energy_at_equal_strain": ratio,
+            "energy_at_equal_energy_over_pressure": ratio,
+            "energy_at_equal_stress": ratio_at_equal_stress(form, crushing, elasticity, stress),
+            "energy_at_equal_solid_fraction": ratio_at_equal_total_strain(
+                form, crushing, elasticity, largest
+            ),
+            "driving_force_over_pressure": _finite(force),
+            "yield_elastic_strain": line.elastic_strain,
+            "yield_stress_Pa": line.stress,
+            "void_ratio": line.void_ratio,
+        }
+    )
+
+
+def _finite(values: NDArray) -> NDArray:
+    return np.where(np.isfinite(values), values, np.nan)
