@@ -24,12 +24,13 @@ COMPARED = {
     "energy_at_equal_stress": "at equal stress",
     "energy_at_equal_solid_fraction": "at equal solid fraction",
 }
-# Energies below this share of those before crushing are off the axis: the paper's form ends at 0.
-_LEAST_RATIO = 0.01
-# Driving forces over pressure beyond these are off the axis: limiting densities end infinitely.
+# Energies beyond these shares of those before crushing are off the axis: the paper's ends at 0.
+_RATIOS = (0.01, 100.0)
+# Driving forces over pressure beyond these are off the axis.
 _FORCES = (-0.35, 0.7)
 _MARKS = np.arange(11) / 10.0  # C along the compression line
-_APART = 0.07  # of two marks with their C, in widths of the panel
+_MOVES = 1e-6  # of a jamming point that does not stay
+_APART = 0.09  # of two marks with their C, in widths of the panel
 _OFFSET = {"textcoords": "offset points", "fontsize": 6.5}
 
 
@@ -70,15 +71,16 @@ def plot_compression_line(
         crushing, stress, void = front
         ax.set_xlim(min(*stress, *begins) / 3.0, max(*stress, *begins) * 3.0)
         margin = 0.12 * max(float(np.ptp(void)), 0.05)
-        ax.set_ylim(void.min() - margin, void.max() + 1.5 * margin)
+        ax.set_ylim(max(void.min() - margin, 0.0), void.max() + 1.5 * margin)
         _mark(ax, crushing, stress, void, model)
     path = curves[(curves["form"] == model["form"]) & (curves["path"] == "crushing")]
     path = path[path["stress_Pa"] > 0]
     void = (1.0 - path["volumetric_strain"]) / model["jamming_solid_fraction"] - 1.0
     elastic = {"ls": ":", "lw": 0.9, "zorder": 1, "label": "loading and unloading"}
     ax.plot(path["stress_Pa"] / 1e6, void, color=FORMS[model["form"]], **elastic)
+    ax.set_ylim(bottom=max(ax.get_ylim()[0], 0.0))
     plain_decades(ax.xaxis)
-    return ax
+    return ax if begins else _never(ax)
 
 
 def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
@@ -96,21 +98,25 @@ def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
     -------
     Axes
     """
-    ax, stays = axes(ax), []
+    ax, stays, front = axes(ax), [], None
     for name, rows in each_form(forms, model):
         solid = rows["jamming_solid_fraction"].to_numpy()
         if name not in beside_the_paper(model):
             continue
-        if np.ptp(solid) > 0:
+        if np.ptp(solid) > _MOVES:
             draw_form(ax, rows, model, rows["crushing"].to_numpy(), solid)
         else:
             stays.append(solid[0])
+        if name == model["form"]:
+            front = solid
     if stays:
         ax.axhline(stays[0], color=FAINT, lw=0.8)
         below = {"xytext": (0, -3), "ha": "right", "va": "top"}
         ax.annotate("all other forms", (0.98, stays[0]), **below, **_OFFSET)
     ax.set(xlabel=CRUSHING, ylabel=r"solid fraction at jamming $\phi_J$ [-]", xlim=(0, 1))
-    ax.margins(y=0.12)
+    if front is not None:
+        margin = max(0.4 * float(np.ptp(front)), 0.01)
+        ax.set_ylim(front.min() - margin, front.max() + margin)
     return ax
 
 
@@ -138,7 +144,7 @@ def plot_energy(forms: Table, model: Mapping, column: str, ax: Axes | None = Non
         shown += ratio[admissible & np.isfinite(ratio)].tolist()
     ax.axhline(1.0, color=FAINT, lw=0.6, zorder=0)
     ax.set(yscale="log", xlim=(0, 1), xticks=(0.0, 0.5, 1.0))
-    ax.set_ylim(max(min(shown) / 1.5, _LEAST_RATIO), 2.0 * max(shown))
+    ax.set_ylim(max(min(shown) / 1.5, _RATIOS[0]), min(2.0 * max(shown), _RATIOS[1]))
     ax.set_title(COMPARED[column], fontsize=7)
     plain_decades(ax.yaxis)
     return ax
@@ -159,17 +165,16 @@ def plot_driving_force(forms: Table, model: Mapping, ax: Axes | None = None) -> 
     -------
     Axes
     """
-    ax, known = axes(ax), [0.0]
+    ax, known, front = axes(ax), [0.0], 0.0
     for name, rows in each_form(forms, model):
-        # Where it yields no more the table has that of another strain, which tells its sign.
-        begin, crushing = model["forms"][name]["inadmissible_from"], rows["crushing"]
-        costs = crushing >= (np.inf if begin is None else begin)
-        force = rows["driving_force_over_pressure"].where(rows["yield_stress_Pa"].notna() | costs)
-        force = force.to_numpy()
+        force = rows["driving_force_over_pressure"].to_numpy()
         draw_form(ax, rows, model, rows["crushing"].to_numpy(), force)
-        known += force[np.isfinite(force)].tolist()
+        known += (finite := force[np.isfinite(force)].tolist())
+        front = max(finite, default=0.0) if name == model["form"] else front
     low, high = max(min(known), _FORCES[0]), min(max(known), _FORCES[1])
-    low = min(low, -0.25 * high)  # room for the words
+    # Limiting densities end infinitely: no more than shows the form on the front.
+    high = min(high, 2.5 * front) if front > 0 else high
+    low = min(low, -0.25 * high, -1e-3)  # room for the words
     ax.axhspan(low, 0.0, color=FAINT, alpha=0.18, lw=0, zorder=0)
     ax.axhline(0.0, color="k", lw=0.6)
     ax.annotate("crushing would cost elastic energy", (0.0, low), (3, 3), **_OFFSET)
@@ -201,11 +206,20 @@ def plot_yield_stress(forms: Table, model: Mapping, ax: Axes | None = None) -> A
         admissible = draw_form(ax, rows, model, crushing, stress)
         known = np.isfinite(stress) & (stress > 0)
         shown += stress[known & admissible].tolist()
-        snaps = model["forms"][name]["snaps"] if known.any() else []
-        ax.plot(snaps, np.interp(snaps, crushing[known], stress[known]), color=FORMS[name], **SNAP)
+        snaps = model["forms"][name]["snaps"]
+        if snaps and known.any():
+            at = np.interp(snaps, crushing[known], stress[known])
+            ax.plot(snaps, at, color=FORMS[name], **SNAP)
     if shown:
         ax.set_ylim(min(shown) / 2.0, 2.0 * max(shown))
     plain_decades(ax.yaxis)
+    return ax if shown else _never(ax)
+
+
+def _never(ax: Axes) -> Axes:
+    """Say that no form yields."""
+    middle = {"ha": "center", "va": "center", "fontsize": 7}
+    ax.text(0.5, 0.4, "crushing never begins", transform=ax.transAxes, **middle)
     return ax
 
 

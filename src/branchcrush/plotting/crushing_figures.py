@@ -6,7 +6,7 @@ each other on a page.
 
 import os
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -14,7 +14,13 @@ from matplotlib.lines import Line2D
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting import crushing, crushing_paths
-from branchcrush.plotting.form_lines import beside_the_paper, form_handles, form_notes
+from branchcrush.plotting.form_lines import (
+    beside_the_paper,
+    form_handles,
+    form_notes,
+    plain_decades,
+    warnings,
+)
 from branchcrush.plotting.style import SIZE, drawn, figure
 
 Path = str | os.PathLike
@@ -41,10 +47,13 @@ def draw_crushing_model(
     Figure
     """
     why = model.get("reason")
-    with figure(path, dpi, (SIZE[0], 5.4), (2, 1)) as panels:
+    with figure(path, dpi, (SIZE[0], 5.8), (2, 1)) as panels:
         drawn(crushing.plot_compression_line, why, forms, curves, model, ax=panels[0])
         drawn(crushing.plot_jamming, why, forms, model, ax=panels[1])
-        _explain(panels[0].figure, model, forms, beside_the_paper, panels[0].lines[-1:])
+        if why is None:
+            shown = beside_the_paper(model)
+            handles = [*form_handles(model, shown), panels[0].lines[-1]]
+            _explain(panels[0].figure, handles, [*form_notes(model, shown), *warnings(model)])
     return panels[0].figure
 
 
@@ -66,7 +75,7 @@ def draw_crushing_energy(path: Path, dpi: int, forms: Table, model: Mapping) -> 
     Figure
     """
     why = model.get("reason")
-    with figure(path, dpi, (SIZE[0], 5.4), (2, 2)) as panels:
+    with figure(path, dpi, (SIZE[0], 5.8), (2, 2)) as panels:
         for ax, column in zip(panels.flat, crushing.COMPARED, strict=True):
             drawn(crushing.plot_energy, why, forms, model, column, ax=ax)
         if why is None:
@@ -74,7 +83,9 @@ def draw_crushing_energy(path: Path, dpi: int, forms: Table, model: Mapping) -> 
             panels[0, 0].figure.supylabel("elastic energy over that at C = 0 [-]", fontsize=8)
             for ax in panels[1]:
                 ax.set_xlabel(crushing.CRUSHING)
-        _explain(panels[0, 0].figure, model, forms, snaps=False)
+            shown = set(forms["form"])
+            handles = form_handles(model, shown, snaps=False)
+            _explain(panels[0, 0].figure, handles, [*form_notes(model, shown), *warnings(model)])
     return panels[0, 0].figure
 
 
@@ -98,11 +109,13 @@ def draw_crushing_yield(
     Figure
     """
     why = model.get("reason")
-    with figure(path, dpi, (SIZE[0], 6.6), (3, 1)) as panels:
+    with figure(path, dpi, (SIZE[0], 7.0), (3, 1)) as panels:
         drawn(crushing.plot_driving_force, why, forms, model, ax=panels[0])
         drawn(crushing.plot_yield_stress, why, forms, model, ax=panels[1])
         drawn(crushing_paths.plot_crushing, why, curves, model, ax=panels[2])
-        _explain(panels[0].figure, model, forms)
+        if why is None:
+            shown = set(forms["form"])
+            _explain(panels[0].figure, form_handles(model, shown), form_notes(model, shown))
     return panels[0].figure
 
 
@@ -124,7 +137,7 @@ def draw_crushing_path(path: Path, dpi: int, curves: Table, model: Mapping) -> F
     Figure
     """
     why = model.get("reason") or model.get("form_reason")
-    with figure(path, dpi, (SIZE[0], 6.6), (3, 1)) as panels:
+    with figure(path, dpi, (SIZE[0], 7.0), (3, 1)) as panels:
         drawn(crushing_paths.plot_stress, why, curves, model, ax=panels[0])
         drawn(crushing_paths.plot_resistance, why, curves, model, ax=panels[1])
         drawn(crushing_paths.plot_work, why, curves, model, ax=panels[2])
@@ -138,23 +151,14 @@ def _one_axis(panels) -> None:
     low, high = zip(*(ax.get_ylim() for ax in panels.flat), strict=True)
     for ax in panels.flat:
         ax.set_ylim(min(low), max(high))
+        plain_decades(ax.yaxis)
         ax.label_outer()
 
 
-def _explain(
-    drawing: Figure,
-    model: Mapping,
-    forms: Table,
-    chosen: Callable[[Mapping], set[str]] | None = None,
-    others: Sequence[Line2D] = (),
-    snaps: bool = True,
-) -> None:
-    """Put one legend above all panels, and below them what is not admissible, in words."""
-    if model.get("reason") is not None:
-        return
-    shown = set(forms["form"]) & (set(FORM_LABELS) if chosen is None else chosen(model))
-    handles = [*form_handles(model, shown, snaps), *others]
-    drawing.legend(handles=handles, loc="outside upper left", ncols=2)
-    notes = [textwrap.fill(note, _CHARACTERS) for note in form_notes(model, shown)]
+def _explain(drawing: Figure, handles: Sequence[Line2D], notes: Sequence[str]) -> None:
+    """Put one legend above all panels, and words below them."""
+    close = {"columnspacing": 1.0, "handlelength": 1.6}
+    drawing.legend(handles=handles, loc="outside upper left", ncols=2, **close)
     if notes:
-        drawing.supxlabel("\n".join(notes), x=0.01, ha="left", fontsize=6)
+        text = "\n".join(textwrap.fill(note, _CHARACTERS) for note in notes)
+        drawing.supxlabel(text, x=0.01, ha="left", fontsize=6)

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
-from branchcrush.plotting.form_lines import each_form, width
+from branchcrush.plotting.form_lines import each_form, plain_decades, width
 from branchcrush.plotting.style import FAINT, FORMS, MEASURED, MODEL, OTHER, axes
 
 STRAIN = "volumetric strain from jamming [%]"
@@ -67,8 +67,7 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         strain, stress = 100 * own["volumetric_strain"], own["stress_Pa"] / 1e6
         ax.plot(strain, stress, "--", color=MODEL, lw=1.2, label="history of the configuration")
     ax.set(xlabel=STRAIN, ylabel="mean stress [MPa]")
-    highest = max(path["stress_Pa"].max(), own["stress_Pa"].max() if len(own) else 0.0) / 1e6
-    ax.set_ylim(0, 1.6 * highest if highest > 0 else None)
+    _decades_below(ax, max(path["stress_Pa"].max(), own["stress_Pa"].max() if len(own) else 0.0))
     return _legend_above(ax, 4)
 
 
@@ -96,6 +95,11 @@ def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Ax
         ax.plot(strain, path[column] / 1e6, label=label, **style)
     ax.axhline(0.0, color="k", lw=0.5)
     ax.set(xlabel=STRAIN, ylabel="energy per volume\nand C [MJ/m³]")
+    # Once C is held the driving force may be anything; what matters is near the resistance.
+    highest = path["resistance_J_per_m3"].max() / 1e6
+    if highest > 0:
+        low, high = ax.get_ylim()
+        ax.set_ylim(max(low, -0.3 * highest), min(high, 1.3 * highest))
     return _legend_above(ax, 2)
 
 
@@ -124,11 +128,20 @@ def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
     ):
         ax.plot(strain, path[column] / 1e6, label=label, **style)
     ax.set(xlabel=STRAIN, ylabel="energy per volume [MJ/m³]")
+    _decades_below(ax, path["work_J_per_m3"].max())
     return _legend_above(ax, 2)
 
 
 def _path(curves: Table, name: str) -> Table:
     return curves[(curves["form"] == name) & (curves["path"] == "crushing")]
+
+
+def _decades_below(ax: Axes, highest: float) -> None:
+    """Let a vertical axis end at a number in Pa, and show what is up to 10 000 times less."""
+    if highest > 0:
+        ax.set_yscale("log")
+        ax.set_ylim(1e-4 * highest / 1e6, 2.0 * highest / 1e6)
+        plain_decades(ax.yaxis)
 
 
 def _legend_above(ax: Axes, columns: int) -> Axes:

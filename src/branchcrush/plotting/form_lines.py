@@ -5,19 +5,22 @@ where crushing by it would cost elastic energy.
 """
 
 from collections.abc import Collection, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FORMS
 
+_SHORT = 50.0  # ends of an axis that has few decades
 # Where C jumps under stress.
-SNAP = {"marker": "v", "ms": 5, "mec": "w", "mew": 0.5, "ls": "none"}
+SNAP: dict[str, Any] = {"marker": "v", "ms": 5, "mec": "w", "mew": 0.5, "ls": "none"}
 
 
 def each_form(table: Table, model: Mapping) -> Iterator[tuple[str, Table]]:
@@ -123,7 +126,7 @@ def form_handles(model: Mapping, shown: Collection[str], snaps: bool = True) -> 
 
 
 def form_notes(model: Mapping, shown: Collection[str]) -> list[str]:
-    """Return in words which forms cost energy from where on, and what is not to be relied on.
+    """Return in words by which forms crushing costs energy, and from where on.
 
     Parameters
     ----------
@@ -135,7 +138,7 @@ def form_notes(model: Mapping, shown: Collection[str]) -> list[str]:
     Returns
     -------
     list of str
-        A sentence each.
+        A sentence, or none.
 
     Examples
     --------
@@ -149,13 +152,34 @@ def form_notes(model: Mapping, shown: Collection[str]) -> list[str]:
         if begin is not None:
             where = "at all C" if begin == 0.0 else f"from C = {begin:.2f}"
             costly.append(f"{FORM_LABELS[name]}, {where}")
-    notes = [f"Crushing would cost elastic energy: {'; '.join(costly)}."] if costly else []
+    return [f"Crushing would cost elastic energy: {'; '.join(costly)}."] if costly else []
+
+
+def warnings(model: Mapping) -> list[str]:
+    """Return what of the model is not to be relied on, a sentence each.
+
+    Parameters
+    ----------
+    model : mapping
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> warnings({"paper_degenerate": "It degenerates.", "untested": "A ratio of 200. At C = 0.5"})
+    ['It degenerates.', 'A ratio of 200.']
+    """
     said = (model.get(key) for key in ("form_reason", "paper_degenerate", "untested"))
-    return [*notes, *(sentence for sentence in said if sentence)]
+    return [f"{sentence.split('. ')[0].rstrip('.')}." for sentence in said if sentence]
 
 
-def plain_decades(axis) -> None:
-    """Write the marks of a logarithmic axis as plain numbers."""
-    axis.set_major_locator(LogLocator(numticks=6))
+def plain_decades(axis: Axis) -> None:
+    """Write the marks of a logarithmic axis as plain numbers, more of them on a short one."""
+    low, high = sorted(axis.get_view_interval())
+    steps = (1.0, 2.0, 5.0) if high < _SHORT * low else (1.0,)
+    axis.set_major_locator(LogLocator(subs=steps, numticks=12 if len(steps) > 1 else 6))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(FuncFormatter(lambda value, _: ""))
+    axis.set_minor_formatter(NullFormatter())

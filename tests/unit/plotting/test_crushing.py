@@ -69,9 +69,7 @@ def test_where_c_jumps_under_stress_is_marked_on_line_and_locus():
     line = crushing.plot_compression_line(forms_table(), curves_table(), snapping)
     locus = crushing.plot_yield_stress(forms_table(), snapping)
     (on_line,) = (mark for mark in line.lines if mark.get_marker() == "v")
-    (on_locus,) = (
-        mark for mark in locus.lines if mark.get_marker() == "v" and len(mark.get_xdata())
-    )
+    (on_locus,) = (mark for mark in locus.lines if mark.get_marker() == "v")
     assert_allclose(on_line.get_xydata(), [[10.0**0.25, 0.675]])
     assert_allclose(on_locus.get_xydata(), [[0.25, 10.0**0.25]])
 
@@ -114,18 +112,21 @@ def test_driving_force_is_drawn_with_the_region_where_crushing_costs_energy(show
     assert ax.get_ylim()[0] == pytest.approx(region.get_y())
 
 
-def test_driving_force_ends_where_a_grading_yields_no_more(shown):
-    table = forms_table()
-    table.loc[(table["form"] == "paper") & (table["crushing"] > 0.6), "yield_stress_Pa"] = np.nan
-    ax = crushing.plot_driving_force(table, model())
-    expected = np.where(CRUSHING > 0.6, np.nan, 0.6 * (0.6 - CRUSHING))
-    assert_allclose(shown.line(ax, PAPER)[1], expected)
-
-
 def test_yield_stress_is_in_mpa_along_c(shown):
     ax = crushing.plot_yield_stress(forms_table(), model())
     assert_allclose(shown.line(ax, PAPER), [CRUSHING, 2.0 * 10.0**CRUSHING])
     assert ax.get_ylim() == pytest.approx((0.5, 80.0))  # of 1 to 4 10^C, twice as wide
+
+
+def test_a_grading_that_never_yields_has_no_line_and_no_mark():
+    table = forms_table().assign(yield_stress_Pa=np.nan, void_ratio=np.nan)
+    snapping = model()
+    snapping["forms"]["paper"]["snaps"] = [0.5]
+    line = crushing.plot_compression_line(table, curves_table(), snapping)
+    locus = crushing.plot_yield_stress(table, snapping)
+    for ax in (line, locus):
+        assert [text.get_text() for text in ax.texts] == ["crushing never begins"]
+    assert all(mark.get_marker() != "v" for mark in (*line.lines, *locus.lines))
 
 
 def test_tables_have_every_form_that_the_tests_count_on():

@@ -6,7 +6,7 @@ import pytest
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.plotting import crushing
 from branchcrush.plotting import crushing_figures as figures
-from branchcrush.plotting.form_lines import form_handles, form_notes
+from branchcrush.plotting.form_lines import form_handles, form_notes, warnings
 from tests.unit.plotting.crushing_tables import FORMS, curves_table, forms_table, model
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -62,8 +62,8 @@ def test_energies_of_all_forms_are_on_one_axis_with_one_legend(drawn):
 
 def test_a_degenerate_form_and_untested_sizes_are_said_on_the_figure(drawn):
     said = model(paper_degenerate=DEGENERATE, untested=UNTESTED)
-    axes = drawn(figures.draw_crushing_yield, forms_table(), curves_table(), said)
-    assert words(axes).endswith(f"{DEGENERATE} {UNTESTED}")
+    axes = drawn(figures.draw_crushing_model, forms_table(), curves_table(), said)
+    assert words(axes).endswith(f"from C = 0.60. {DEGENERATE} {UNTESTED}")
 
 
 def test_a_form_on_the_front_that_is_not_there_says_why(drawn):
@@ -72,7 +72,7 @@ def test_a_form_on_the_front_that_is_not_there_says_why(drawn):
     axes = drawn(figures.draw_crushing_path, curves_table(), absent)
     assert [ax.texts[0].get_text() for ax in axes] == ["no data: no contacts were measured"] * 3
     crushing.plot_compression_line(forms_table(), curves_table(), absent)
-    assert form_notes(absent, FORMS)[-1] == "no contacts were measured"
+    assert warnings(absent) == ["no contacts were measured."]
 
 
 def test_jumps_under_stress_are_in_the_legend_of_the_figures_that_mark_them():
@@ -84,7 +84,8 @@ def test_jumps_under_stress_are_in_the_legend_of_the_figures_that_mark_them():
     assert len(form_handles(snapping, ["paper"])) == 1
 
 
-def test_notes_are_said_once_and_none_without_a_reason():
-    said = model(paper_degenerate=DEGENERATE, untested=UNTESTED)
-    assert form_notes(said, ["paper"]) == [DEGENERATE, UNTESTED]
-    assert form_notes(model(paper_degenerate=None, untested=None), []) == []
+def test_a_warning_is_its_first_sentence_and_none_is_none():
+    said = model(paper_degenerate=DEGENERATE, untested=f"{UNTESTED} At C = 0.5 more.")
+    assert warnings(said) == [DEGENERATE, UNTESTED]
+    assert warnings(model(paper_degenerate=None, untested=None)) == []
+    assert form_notes(model(), ["paper"]) == []
