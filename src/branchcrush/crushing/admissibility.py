@@ -69,6 +69,11 @@ def admissibility(
     >>> print(*admissibility(stiffer, law, CriticalEnergy(1e5, 2.0), 0.1).sentences)
     From C = 0 on crushing would cost elastic energy: at equal strain more is stored as C grows.
     """
+    places = np.linspace(0.0, form.knots[-1], _PLACES)
+    changes = np.abs([form.factor.value(places) - 1.0, form.jamming.value(places) - 1.0]).max()
+    if changes <= _NOTHING:
+        told = "Crushing changes nothing in this form: the grading is the ultimate one already."
+        return Admissibility((), (), (), True, None, (told,))
     costs = energy_costs(form, elasticity, resistance, largest)
     by_strain, by_stress = (
         YieldLine(form, elasticity, resistance, control) for control in ("strain", "stress")

@@ -1,17 +1,10 @@
-"""The elastic law before crushing: pressure and energy of the strain, and its fit to a path."""
+"""The elastic law before crushing: what it must tell, and laws in closed form."""
 
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-# A state below this share of the largest energy carries nothing.
-_LOADED = 1e-12
-# Three parameters fit any fewer states.
-FEWEST_STATES = 4
-# Where the search begins, as shares of the largest phi_J: noise makes side valleys.
-_STARTS = (0.7, 0.9, 0.99)
 
 
 class Elasticity(Protocol):
@@ -34,6 +27,10 @@ class Elasticity(Protocol):
 
     def stiffness(self, strain: ArrayLike) -> NDArray:
         """Return dp_0/deps [Pa]."""
+
+    @property
+    def knots(self) -> NDArray:
+        """Strains between which the pressure is smooth, the onset first [-]."""
 
 
 @dataclass(frozen=True)
@@ -154,83 +151,60 @@ class PowerLawElasticity:
         loaded = np.where(beyond > 0, beyond, 1.0) ** (self.exponent - 1)
         return np.where(beyond > 0, self.modulus * self.exponent * loaded, 0.0)
 
+    @property
+    def knots(self) -> NDArray:
+        """The onset."""
+        return np.array([self.onset_strain])
 
-def fit_elasticity(
-    solid_fraction: ArrayLike, energy_density: ArrayLike
-) -> tuple[PowerLawElasticity, float]:
-    r"""Return the power law and the jamming solid fraction that fit the energy along a path.
 
-    .. math:: \frac{E}{V} = \frac{\phi}{\phi_J}\, \Psi_0(\epsilon), \qquad
-        \epsilon = 1 - \frac{\phi_J}{\phi}
+def pressure_dependent(
+    modulus: float, exponent: float, reference_pressure: float, onset_strain: float = 0.0
+) -> PowerLawElasticity:
+    r"""Return the law whose bulk modulus grows with the pressure, as is usual for soils.
 
-    Psi_0 is per volume at jamming, which makes dPsi_0/deps the pressure. Least squares in the root
-    of the energy, which vanishes near jamming; states without load count too: they bound phi_J.
+    .. math:: K = \frac{dp}{d\epsilon} = K_0 \left(\frac{p}{p_0}\right)^q \quad\Rightarrow\quad
+        p = p_0 \left[\frac{(1-q)\, K_0\, \langle\epsilon - \epsilon_J\rangle}{p_0}
+        \right]^{1/(1-q)}
+
+    From no pressure on that is a power law, m = 1/(1 - q): linear contacts' is q = 0, Hertz's
+    q = 1/3, and a soil has about 1/2.
 
     Parameters
     ----------
-    solid_fraction : array_like, shape (states,)
-        phi, in any order [-].
-    energy_density : array_like, shape (states,)
-        E/V, per current volume [J/m3].
+    modulus : float
+        K_0, at the reference pressure [Pa].
+    exponent : float
+        q, from 0 to below 1 [-].
+    reference_pressure : float
+        p_0 [Pa].
+    onset_strain : float
+        eps_J [-].
 
     Returns
     -------
-    elasticity : PowerLawElasticity
-        Its onset is at eps = 0.
-    jamming : float
-        phi_J [-].
+    PowerLawElasticity
 
     Raises
     ------
     ValueError
-        For unusable arrays, fewer than four loaded states, or no power law in them.
+        For values outside of these.
 
     Examples
     --------
-    >>> phi = np.array([0.60, 0.66, 0.70, 0.75, 0.80])
-    >>> law, jamming = fit_elasticity(phi, 50 * phi / 0.64 * np.maximum(1 - 0.64 / phi, 0) ** 2)
-    >>> round(law.modulus, 6), round(law.exponent, 6), round(jamming, 6)
-    (100.0, 1.0, 0.64)
+    >>> law = pressure_dependent(2e8, 0.5, 1e5)
+    >>> law.exponent, round(float(law.stiffness(law.strain_at_pressure(4e5))) / 1e8, 9)
+    (2.0, 4.0)
+
+    References
+    ----------
+    Janbu (1963), Proc. European Conf. Soil Mech. Found. Eng. 1, 19-25, Wiesbaden.
     """
-    from scipy.optimize import least_squares  # slow to import, and few jobs need it
-
-    phi, energy = _usable_states(solid_fraction, energy_density)
-    largest = energy.max(initial=0.0)
-    loaded = np.unique(phi[energy > _LOADED * largest])
-    if loaded.size < FEWEST_STATES:
+    usable = 0 < modulus < np.inf and 0 < reference_pressure < np.inf
+    if not (usable and 0 <= exponent < 1):
         raise ValueError(
-            f"{loaded.size} states carry load, the fit needs {FEWEST_STATES}: compress or save more"
+            "modulus and reference pressure must be positive and finite, the exponent from 0 to "
+            f"below 1: {modulus:g} Pa, {reference_pressure:g} Pa, {exponent:g}"
         )
-    root = np.sqrt(energy / largest)
-
-    def shape(jamming: float, exponent: float) -> NDArray:
-        strain = np.maximum(1 - jamming / phi, 0)
-        return np.sqrt(phi / jamming) * strain ** ((exponent + 1) / 2)
-
-    def factor(curve: NDArray) -> float:  # the root of the modulus has a closed form
-        return (curve @ root) / (curve @ curve)
-
-    # The densest states that the fit needs stay above phi_J.
-    ceiling = loaded[-FEWEST_STATES]
-    fits = [
-        least_squares(
-            lambda parameters: (curve := shape(*parameters)) * factor(curve) - root,
-            x0=[start * ceiling, 1.5],
-            bounds=([0.05 * ceiling, 0.05], [ceiling, 10.0]),
-            **dict.fromkeys(("ftol", "xtol", "gtol"), 1e-15),
-        )
-        for start in _STARTS
-    ]
-    jamming, exponent = min(fits, key=lambda fit: fit.cost).x.tolist()
-    if jamming < 0.06 * ceiling or not 0.06 < exponent < 9.9:  # the search ended at a bound
-        raise ValueError(f"energies fit no power law: m = {exponent:.3g} at phi_J = {jamming:.3g}")
-    modulus = (exponent + 1) * factor(shape(jamming, exponent)) ** 2 * largest
-    return PowerLawElasticity(float(modulus), exponent), jamming
-
-
-def _usable_states(solid_fraction: ArrayLike, energy_density: ArrayLike) -> tuple[NDArray, NDArray]:
-    phi, energy = np.asarray(solid_fraction, float), np.asarray(energy_density, float)
-    usable = phi.ndim == 1 and phi.shape == energy.shape and np.isfinite([phi, energy]).all()
-    if not (usable and (phi > 0).all() and (energy >= 0).all()):
-        raise ValueError("each state needs a finite solid fraction > 0 and a finite energy >= 0")
-    return phi, energy
+    power = 1.0 / (1.0 - exponent)
+    factor = reference_pressure * (modulus / (power * reference_pressure)) ** power
+    return PowerLawElasticity(factor, power, onset_strain)

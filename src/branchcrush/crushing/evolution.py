@@ -6,6 +6,7 @@ booked for itself.
 """
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from branchcrush.crushing.yield_line import Control, YieldLine
 _ORDER = 24
 # Nodes of Gauss and Legendre, and where the extremes of Chebyshev's polynomials lie.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
+_EXTREMES = np.cos(np.pi * np.arange(_ORDER + 1) / _ORDER)
 
 
 class Event(NamedTuple):
@@ -196,28 +198,48 @@ class _Walk:
 
     def _follow(self, to: float, load: float | None = None) -> None:
         """Let C grow along the yield line, or at one load, and add up what that takes."""
-        line, form, law = self.line, self.line.form, self.line.elasticity
-        inside = line.pieces[(line.pieces > self.crushing) & (line.pieces < to)]
+        inside = self.line.pieces[(self.line.pieces > self.crushing) & (self.line.pieces < to)]
         for end in [*inside.tolist(), to]:
-            half, middle = (end - self.crushing) / 2.0, (end + self.crushing) / 2.0
-            if half <= 0.0:
-                continue
-            fitted = np.cos(np.pi * np.arange(_ORDER + 1) / _ORDER)
-            # The first of the fitted ones is the end.
-            at = np.concatenate([middle + half * _NODES, [end], middle + half * fitted[1:]])
-            strain = line.strain_at(at) if load is None else line.strain_under(load, at)
-            at_end = float(strain[_NODES.size])
-            series = chebyshev.chebfit(fitted, strain[_NODES.size :], _ORDER)
-            slope = chebyshev.chebval(_NODES, chebyshev.chebder(series))
-            at, strain = at[: _NODES.size], strain[: _NODES.size]
-            stress = form.stress(strain, at, law)
-            moved = form.jamming.log_slope(at) / form.jamming.value(at)
-            self.work += float(_WEIGHTS @ (stress * slope))
-            self.dissipated += half * float(_WEIGHTS @ form.driving_force(strain, at, law))
-            self.compaction += half * float(_WEIGHTS @ (stress * moved))
-            self.crushing, self.strain = end, at_end
-            if load is None:
-                line.known[end] = at_end
+            for part in [*self._kinks(end, load), end]:
+                self._integrate(part, load)
+
+    def _integrate(self, to: float, load: float | None) -> None:
+        """Let C grow over a piece that is smooth."""
+        line, form, law = self.line, self.line.form, self.line.elasticity
+        half, middle = (to - self.crushing) / 2.0, (to + self.crushing) / 2.0
+        if half <= 0.0:
+            return
+        # The first of the extremes is the end.
+        at = np.concatenate([middle + half * _NODES, [to], middle + half * _EXTREMES[1:]])
+        strain = line.strain_at(at) if load is None else line.strain_under(load, at)
+        at_end = float(strain[_NODES.size])
+        series = chebyshev.chebfit(_EXTREMES, strain[_NODES.size :], _ORDER)
+        slope = chebyshev.chebval(_NODES, chebyshev.chebder(series))
+        at, strain = at[: _NODES.size], strain[: _NODES.size]
+        stress = form.stress(strain, at, law)
+        moved = form.jamming.log_slope(at) / form.jamming.value(at)
+        self.work += float(_WEIGHTS @ (stress * slope))
+        self.dissipated += half * float(_WEIGHTS @ form.driving_force(strain, at, law))
+        self.compaction += half * float(_WEIGHTS @ (stress * moved))
+        self.crushing, self.strain = to, at_end
+        if load is None:
+            line.known[to] = at_end
+
+    def _kinks(self, to: float, load: float | None) -> list[float]:
+        """Return the C on the way to one at which the elastic strain passes a knot of the law."""
+        line = self.line
+        if line.elasticity.knots.size == 1 or to <= self.crushing:  # nothing yields at the onset
+            return []
+        from scipy.optimize import brentq  # slow to import, and few jobs need it
+
+        middle, half = (to + self.crushing) / 2.0, (to - self.crushing) / 2.0
+        at = middle - half * _EXTREMES
+        places = []
+        for knot in line.elasticity.knots.tolist():
+            passed = np.diff(line.beyond(at, knot, load) > 0.0)
+            for first in np.flatnonzero(passed).tolist():
+                places.append(brentq(line.beyond, at[first], at[first + 1], args=(knot, load)))
+        return sorted(place for place in places if self.crushing < place < to)
 
     def _load_to(self, strain: float) -> None:
         """Go to a strain at the C that is, and add up the work."""
@@ -227,13 +249,14 @@ class _Walk:
             raise ValueError(
                 f"an elastic strain of {elastic:.3g}: loads must keep it below {LARGEST}"
             )
-        onset = float(form.total_strain(law.strain_at_energy(0.0), self.crushing))
         low, high = sorted((self.strain, strain))
-        middle = min(max(onset, low), high)
+        knots = form.total_strain(law.knots, self.crushing)
+        places = np.unique(np.clip(knots, low, high))
+        places = places if strain > self.strain else places[::-1]
         # Nodes crowd at both ends as t^3, which makes a power law of any exponent smooth there.
         t = (1.0 + _NODES) / 2.0
         x, weights = t**3 * (10 - 15 * t + 6 * t**2), 15 * _WEIGHTS * (t * (1 - t)) ** 2
-        for begin, end in ((self.strain, middle), (middle, strain)):
+        for begin, end in pairwise([self.strain, *places.tolist(), strain]):
             stress = form.stress(begin + (end - begin) * x, self.crushing, law)
             self.work += float(weights @ stress) * (end - begin)
         self.strain = strain

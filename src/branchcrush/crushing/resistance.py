@@ -17,6 +17,8 @@ from branchcrush.crushing.forms import ModelForm
 # Where a yield strain is sought: elastic strains that no contact law is meant to leave.
 _LEAST, LARGEST = 1e-8, 0.5
 _STEPS = 161
+# How far below the resistance, of it, the force may be at a look and above it next to that.
+_NEARLY = 0.05
 _MOST_SEARCHES, _ROUNDING = 100, 4e-16
 
 
@@ -35,6 +37,10 @@ class Resistance(Protocol):
         self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
     ) -> NDArray:
         """Return the driving force at which C grows [J/m3]."""
+
+    @property
+    def knots(self) -> NDArray:
+        """C between which it is smooth [-]."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +100,11 @@ class CriticalEnergy:
         """Return `resistance`, whatever the form and the elastic law."""
         return self.resistance(crushing)
 
+    @property
+    def knots(self) -> NDArray:
+        """The beginning: at C = 1 it is infinite."""
+        return np.array([0.0])
+
     def excess(
         self, strain: ArrayLike, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
     ) -> NDArray:
@@ -132,20 +143,47 @@ class CriticalEnergy:
             eps_e [-]; infinite where the driving force stays too small up to 0.5.
         """
         crushing = np.asarray(crushing, float)
-        at = crushing.reshape(-1, 1)
+        at = crushing.reshape(-1)
         steps = np.geomspace(_LEAST, LARGEST, _STEPS)
 
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
 
-        looks = excess(steps, at)
-        yields = np.flatnonzero((looks > 0.0).any(axis=1))
-        first = np.maximum((looks[yields] > 0.0).argmax(axis=1), 1)
-        between = [(np.log(steps[k]), looks[yields, k]) for k in (first - 1, first)]
-        roots = _roots(lambda logs: excess(np.exp(logs), at[yields, 0]), *between)
+        looks = excess(steps, at[:, None])
+        rows, first = np.arange(at.size), np.maximum((looks > 0.0).argmax(axis=1), 1)
+        before = np.array([steps[first - 1], looks[rows, first - 1]])
+        after = np.array([steps[first], looks[rows, first]])
+        self._look_between(excess, at, steps, looks, before, after)
+        yields = after[1] > 0.0
         result = np.full(at.size, np.inf)
-        result[yields] = np.exp(roots)
+        if yields.any():
+            ends = [(np.log(end[0, yields]), end[1, yields]) for end in (before, after)]
+            roots = _roots(lambda logs: excess(np.exp(logs), at[yields]), *ends)
+            result[yields] = np.exp(roots)
         return result.reshape(crushing.shape)
+
+    @staticmethod
+    def _look_between(
+        excess: Callable[[NDArray, NDArray], NDArray],
+        at: NDArray,
+        steps: NDArray,
+        looks: NDArray,
+        before: NDArray,
+        after: NDArray,
+    ) -> None:
+        """Move the ends of the search to where the force is above the resistance within a step."""
+        peak = looks.argmax(axis=1)
+        highest = looks[np.arange(at.size), peak]
+        hidden = np.flatnonzero((highest <= 0.0) & (peak > 0) & (peak < steps.size - 1))
+        # Farther below it is no question of where one looks.
+        hidden = hidden[highest[hidden] > -_NEARLY]
+        if hidden.size:
+            from scipy.optimize.elementwise import find_minimum  # slow to import
+
+            around = [steps[peak[hidden] + side] for side in (-1, 0, 1)]
+            found = find_minimum(lambda *args: -excess(*args), tuple(around), args=(at[hidden],))
+            before[:, hidden] = around[0], looks[hidden, peak[hidden] - 1]
+            after[:, hidden] = found.x, -found.f_x
 
 
 def _roots(
@@ -229,3 +267,8 @@ class ElasticStrainLimit:
         elastic = self.yield_strain(crushing, form, elasticity)
         strain = form.total_strain(elastic, crushing)
         return form.driving_force(strain, crushing, elasticity)
+
+    @property
+    def knots(self) -> NDArray:
+        """Those of the change."""
+        return self.change.knots

@@ -15,6 +15,10 @@ Control = Literal["strain", "stress"]
 _HALVINGS = 40
 # Places on each smooth piece at which the yield line is looked at.
 _LOOKS = 17
+# How often where crushing ends at a peak of the driving force: more would be rounding.
+_NEAR = 30
+# Each divides by 16 how far the end of the line is known.
+_ROUNDS = 12
 
 
 class YieldLine:
@@ -48,22 +52,44 @@ class YieldLine:
         self.form, self.elasticity = form, elasticity
         self.resistance, self.control = resistance, control
         self.known: dict[float, float] = {}
-        knots = form.knots
+        knots = np.union1d(form.knots, resistance.knots)
+        knots = knots[knots <= form.knots[-1]]
         rest = 1.0 - 0.5 ** np.arange(1, _HALVINGS + 1)
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
         if knots[-1] == 1.0:  # there a resistance may be infinite
             self.pieces = self.pieces[:-1]
         self.looks = self._places()
+        end = self._last_yielding()
+        if end < self.pieces[-1]:
+            # The line is as steep there as a root is.
+            near = end - end * 0.5 ** np.arange(1, _NEAR + 1)
+            self._end_at(end, near)
         end = self._last_admissible()
         if end < self.pieces[-1]:
-            self.pieces = np.append(self.pieces[self.pieces < end], end)
-            self.looks = self._places()
+            self._end_at(end)
         self.loads = self.load_at(self.looks)
+
+    def _end_at(self, end: float, near: ArrayLike = ()) -> None:
+        pieces = np.union1d(self.pieces, near)
+        self.pieces = np.append(pieces[pieces < end], end)
+        self.looks = self._places()
 
     def _places(self) -> NDArray:
         inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
         looks = self.pieces[:-1, None] + np.diff(self.pieces)[:, None] * inner
         return np.append(looks.ravel(), self.pieces[-1])
+
+    def _last_yielding(self) -> float:
+        """Return the C up to which each one yields at some strain."""
+        between = self.looks
+        for _ in range(_ROUNDS):
+            never = np.flatnonzero(np.isinf(self.strain_at(between)))
+            if not never.size:
+                return between[-1]
+            if never[0] == 0:
+                return between[0]
+            between = np.linspace(between[never[0] - 1], between[never[0]], _LOOKS)
+        return between[0]
 
     def _last_admissible(self) -> float:
         """Return the C up to which crushing sets energy free on the yield line."""
@@ -111,6 +137,18 @@ class YieldLine:
             return np.broadcast_to(load, np.shape(crushing)).astype(float)
         elastic = self.elasticity.strain_at_pressure(load / self.form.factor.value(crushing))
         return self.form.total_strain(elastic, crushing)
+
+    def beyond(self, crushing: ArrayLike, elastic: float, load: float | None = None) -> NDArray:
+        """Return a number above 0 where the elastic strain is more than one.
+
+        On the yield line, or under one load, at each C.
+        """
+        if load is None:
+            strain = self.form.total_strain(elastic, crushing)
+            return -self.resistance.excess(strain, crushing, self.form, self.elasticity)
+        if self.control == "strain":
+            return self.form.elastic_strain(load, crushing) - elastic
+        return load - self.form.factor.value(crushing) * self.elasticity.pressure(elastic)
 
     def holding(self, load: float, low: float, high: float) -> float:
         """Return the C between two that yields at a load; `high` holds it and `low` does not."""

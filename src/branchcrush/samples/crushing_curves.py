@@ -23,7 +23,7 @@ FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
 _IN, _BACK, _FIXED, _PLACES = 60, 10, 40, 51
 # The unloading leg ends here, as a share of the largest elastic strain.
 _UNLOADED_TO = 0.6
-# So near to C = 1 crushing is complete.
+# So near to C = 1 crushing is complete; at it a limiting density may be reached with a jerk.
 _COMPLETE = 1.0 - 1e-9
 # Beyond the last load that crushing goes on at, so that it does.
 _BEYOND = 1.0 + 1e-9
@@ -102,10 +102,9 @@ def _states(
     """Return what a form says of some states."""
     crushing = np.broadcast_to(crushing, strain.shape)
     elastic = form.elastic_strain(strain, crushing)
-    # At C = 1 a resistance may be infinite, and a limiting density be reached with a jerk.
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore"):  # at C = 1 a resistance may be infinite
         critical = resistance.critical_force(crushing, form, elasticity)
-        force = form.driving_force(strain, crushing, elasticity)
+    force = form.driving_force(strain, np.minimum(crushing, _COMPLETE), elasticity)
     return pd.DataFrame(
         {
             "path": path,
@@ -115,8 +114,8 @@ def _states(
             "elastic_energy_J_per_m3": elasticity.energy(elastic),
             "free_energy_J_per_m3": form.free_energy(strain, crushing, elasticity),
             "stress_Pa": form.stress(strain, crushing, elasticity),
-            "driving_force_J_per_m3": _finite(force),
-            "resistance_J_per_m3": _finite(critical),
+            "driving_force_J_per_m3": force,
+            "resistance_J_per_m3": np.where(np.isfinite(critical), critical, np.nan),
             "tangent_stiffness_Pa": form.tangent_stiffness(strain, crushing, elasticity),
         }
     )
@@ -147,10 +146,9 @@ def form_table(
         Columns of `crushing_forms.csv` but form.
     """
     crushing = np.linspace(0.0, form.knots[-1], _PLACES)
-    line = compression_line(form, crushing, elasticity, resistance, jamming)
-    strain = yielding_strain(form, elasticity, resistance, largest, crushing)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        force = force_over_stress(form, elasticity, strain, crushing)
+    below = np.minimum(crushing, _COMPLETE)
+    line = compression_line(form, below, elasticity, resistance, jamming)
+    strain = yielding_strain(form, elasticity, resistance, largest, below)
     ratio = ratio_at_equal_strain(form, crushing)
     stress = float(elasticity.pressure(largest))
     return pd.DataFrame(
@@ -164,13 +162,9 @@ def form_table(
             "energy_at_equal_solid_fraction": ratio_at_equal_total_strain(
                 form, crushing, elasticity, largest
             ),
-            "driving_force_over_pressure": _finite(force),
+            "driving_force_over_pressure": force_over_stress(form, elasticity, strain, below),
             "yield_elastic_strain": line.elastic_strain,
             "yield_stress_Pa": line.stress,
             "void_ratio": line.void_ratio,
         }
     )
-
-
-def _finite(values: NDArray) -> NDArray:
-    return np.where(np.isfinite(values), values, np.nan)

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from branchcrush.crushing.elasticity import PowerLawElasticity, fit_elasticity
+from branchcrush.crushing.elastic_fits import fit_elasticity
+from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.errors import FitError
 from branchcrush.samples.ensemble import stacked
 

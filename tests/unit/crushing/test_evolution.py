@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from branchcrush.crushing.curves import LinearCurve, TabulatedCurve
-from branchcrush.crushing.elasticity import PowerLawElasticity
+from branchcrush.crushing.elasticity import PowerLawElasticity, pressure_dependent
 from branchcrush.crushing.evolution import evolve
 from branchcrush.crushing.forms import ModelForm
+from branchcrush.crushing.interpolated_elasticity import InterpolatedElasticity
 from branchcrush.crushing.resistance import CriticalEnergy, ElasticStrainLimit
 
 PAPER = ModelForm(LinearCurve(0.6))
@@ -131,6 +132,54 @@ def test_work_is_stored_or_dissipated(history, exponent, critical, hardening, mo
     np.testing.assert_allclose(path.work, path.stored + path.dissipated, atol=1e-10 * scale)
     assert (np.diff(path.crushing, prepend=0.0) >= 0.0).all()
     assert (np.diff(path.dissipated, prepend=0.0) >= -1e-12 * scale).all()
+
+
+@pytest.mark.parametrize("control", ["strain", "stress"])
+def test_crushing_locks_where_the_driving_force_stays_below_the_resistance(control):
+    # Next to the densest grading the force has a peak at some strain, and that sinks.
+    law, resistance = PowerLawElasticity(1e9, 1.5), CriticalEnergy(4e5, 2.0)
+    load = np.array([0.05, 0.02, 0.15, 0.2, 0.3])
+    load = load if control == "strain" else 2e8 * load
+    path = evolve(load, MOVING, law, resistance, control)
+    assert [event.kind for event in path.events] == ["yield", "lock"]
+    np.testing.assert_allclose(path.work, path.stored + path.dissipated, rtol=1e-10)
+    locked = path.crushing[-1]
+    strains = MOVING.total_strain(np.geomspace(1e-4, 0.3, 100_001), locked)
+    peak = resistance.excess(strains, locked, MOVING, law).max()
+    assert peak == pytest.approx(0.0, abs=1e-8)
+
+
+DEM = InterpolatedElasticity(
+    (0.0143, 0.0334, 0.0523, 0.0709, 0.1074, 0.1429, 0.1774, 0.1944),
+    (9.60e3, 5.33e4, 1.42e5, 2.86e5, 7.66e5, 1.543e6, 2.625e6, 3.307e6),
+)
+
+
+@settings(max_examples=8, deadline=None)
+@given(
+    law=st.sampled_from([DEM, pressure_dependent(5e7, 1 / 3, 1e6, onset_strain=0.01)]),
+    history=st.lists(st.floats(0.0, 0.24), min_size=1, max_size=5),
+    critical=st.floats(1e5, 2e6),
+    hardening=st.sampled_from([0.0, 0.5, 2.0]),
+    form=st.sampled_from([PAPER, MOVING]),
+    control=st.sampled_from(["strain", "stress"]),
+)
+def test_work_is_stored_or_dissipated_with_any_law(
+    law, history, critical, hardening, form, control
+):
+    load = np.array(history) if control == "strain" else 1e8 * np.array(history)
+    path = evolve(load, form, law, CriticalEnergy(critical, hardening), control)
+    scale = max(np.abs(path.work).max(), 1.0)
+    np.testing.assert_allclose(path.work, path.stored + path.dissipated, atol=1e-10 * scale)
+    assert (np.diff(path.crushing, prepend=0.0) >= 0.0).all()
+
+
+def test_limits_of_strain_pass_the_states_of_a_measured_law():
+    # The limit falls with C from beyond the last state to the first: kinks all along.
+    limit = ElasticStrainLimit(0.2, LinearCurve(0.95))
+    path = evolve([0.15, 0.21, 0.24, 0.1, 0.28], MOVING, DEM, limit)
+    assert path.crushing[-1] > 0.3
+    np.testing.assert_allclose(path.work, path.stored + path.dissipated, rtol=1e-10)
 
 
 @pytest.mark.parametrize("load", [[], [[0.1]], [np.nan], [np.inf]])
