@@ -27,7 +27,3 @@ class RunError(BranchcrushError):
 
 class FitError(BranchcrushError):
     """The data carry too little to fit."""
-
-
-class AdmissibilityError(BranchcrushError):
-    """The crushing model would dissipate negative energy for these distributions."""

@@ -76,6 +76,7 @@ def test_samples_without_data_say_why_and_the_study_goes_on(no_data):
         for kind in ("energy_split", "thermodynamics"):
             assert read_json(no_data / name / f"{kind}.json")["reason"] == text
             assert read_table(no_data / name / f"{kind}.csv")["reason"].tolist() == [text]
+        assert read_table(no_data / name / "crushing_forms.csv")["reason"].tolist() == [text]
     # Grains of one size still have branches.
     assert read_table(no_data / "alike/branch_lengths.csv")["branches"].sum() > 40
     assert read_json(no_data / "loose/branch_lengths.json")["reason"] == NO_LOAD

@@ -230,11 +230,13 @@ def test_the_crushing_curves_conserve_energy_and_never_heal(sample):
         read_table(sample / "thermodynamics.csv"),
         read_json(sample / "thermodynamics.json"),
     )
-    path = curves[curves["path"] == "crushing"]
-    kept = path["free_energy_J_per_m3"] + path["dissipated_J_per_m3"]
-    assert np.allclose(path["work_J_per_m3"], kept, rtol=1e-8, atol=1e-9 * kept.max())
-    assert (np.diff(path["crushing"]) >= 0).all()
-    assert 0 <= model["theta"] <= 1
+    for name, path in curves[curves["path"] == "crushing"].groupby("form"):
+        kept = path["free_energy_J_per_m3"] + path["dissipated_J_per_m3"]
+        assert np.allclose(path["work_J_per_m3"], kept, rtol=1e-8, atol=1e-9 * kept.max()), name
+        assert (np.diff(path["crushing"]) >= 0).all(), name
+    there = {name for name, form in model["forms"].items() if form["reason"] is None}
+    assert there == set(curves["form"]) == set(read_table(sample / "crushing_forms.csv")["form"])
+    assert "moving_jamming" in there and 0 <= model["theta"] <= 1
 
 
 def test_the_grading_is_written_by_number_and_by_mass(sample):

@@ -1,20 +1,22 @@
-"""The crushing model of the paper: what crushing costs, releases and dissipates.
+"""The crushing model: what crushing costs, releases and dissipates, in all its forms.
 
-`elasticity`
-    `Elasticity` is what the model needs of a material: pressure and energy of the strain.
-    `PowerLawElasticity` is one, and `fit_elasticity` takes it from a measured loading path.
-`model`
-    `theta` says which share of the elastic energy complete crushing releases, from the moments of
-    the branch lengths; `admissibility_problem` says why there is none.
-`law`
-    `CrushingLaw` has the free energy, the driving force and the resistance for a parameter C.
-`path`
-    `crushing_path` follows C, stress and energies along any strain path, `CrushingPath`.
+`elasticity`, `interpolated_elasticity`, `elastic_fits`
+    `Elasticity` is what the model needs of a material: pressure and energy of the strain, in closed
+    form or through what was measured.
+`curves`, `forms`
+    `ModelForm` is a form of the model, two functions of the crushing parameter C: by what factor
+    the energy changes at equal elastic strain, and how the jamming point moves.
+`resistance`, `yield_line`
+    What holds crushing back, and the load at which each C yields.
+`evolution`
+    `evolve` follows C, stress and energies along any history of strain or stress.
+`leaps`, `admissibility`
+    What of a form cannot be, in sentences: crushing that costs energy, leaps, snaps, gaps.
+`energy_ratios`, `breakage`, `paper_form`
+    Energies of gradings beside each other; measures of laboratories; what is the paper's alone.
 
-Another material is another class with the methods of `Elasticity`. Another form of the split is
-another pair of moments for `theta`. Another resistance is a change of `CrushingLaw` alone: its
-`resistance`, `equilibrium_crushing` and `dissipated_energy` belong together.
+Another material is another class with the methods of `Elasticity`, another resistance one with
+those of `Resistance`, and another form another pair of curves: `branches.crushing_forms` has them.
 
-Compression is positive, energies are per reference volume [J/m3 = Pa]. This room knows neither
-gradings nor files.
+Compression is positive, energies are per reference volume [J/m3 = Pa].
 """

@@ -46,6 +46,8 @@ def load_leaps(line: YieldLine, largest: float) -> list[Leap]:
     for begin in begins.tolist():
         top = line.top(float(looks[max(begin - 2, 0)]), float(looks[begin]))
         load = float(line.load_at(top))
+        if load <= loads[begin - 1] * (1.0 + _NOTHING):  # no peak between two looks
+            top, load = float(looks[begin - 1]), float(loads[begin - 1])
         holds = np.flatnonzero(~falls[begin:])
         if holds.size:
             high = begin + holds[0]

@@ -17,8 +17,8 @@ needs the contacts of many seeds is given what reads those of one, and holds no 
     The energy split function and its exponent, at the end and along the loading.
 `sharing`
     How energy, force and stress are shared by grains and branches.
-`thermodynamics`
-    The crushing model on the elastic energy that was measured.
+`thermodynamics`, `elastic_law`, `forms_of_sample`, `crushing_curves`
+    The crushing model in all its forms, on the elastic energy that was measured.
 `grading`
     The grading that the seeds realise, beside the target.
 

@@ -23,9 +23,27 @@ from branchcrush.samples.ensemble import certified_loading, on_the_way_in
 from branchcrush.samples.forms_of_sample import FormsOfSample, degenerate, forms_of, untested
 from branchcrush.statistics.intervals import Interval
 
+# The columns of `thermodynamics.csv` but form, some of which only some rows have.
+_CURVES = (
+    "path",
+    "volumetric_strain",
+    "elastic_strain",
+    "crushing",
+    "elastic_energy_J_per_m3",
+    "reference_energy_J_per_m3",
+    "free_energy_J_per_m3",
+    "stress_Pa",
+    "driving_force_J_per_m3",
+    "resistance_J_per_m3",
+    "dissipated_J_per_m3",
+    "plastic_work_J_per_m3",
+    "work_J_per_m3",
+    "tangent_stiffness_Pa",
+)
 # What is told of each form, and of that on the front again at the top.
 _OF_A_FORM = (
     "admissible",
+    "inadmissible_from",
     "least_hardening_exponent",
     "hardens_at_onset",
     "yield_strain",
@@ -228,22 +246,3 @@ def _ordered(parts: Sequence[pd.DataFrame]) -> pd.DataFrame:
     order = [column for column in _CURVES if column in together]
     others = [column for column in together if column not in ("form", *order)]
     return together[["form", *order, *others]]
-
-
-# The columns of `thermodynamics.csv` but form, some of which only some rows have.
-_CURVES = (
-    "path",
-    "volumetric_strain",
-    "elastic_strain",
-    "crushing",
-    "elastic_energy_J_per_m3",
-    "reference_energy_J_per_m3",
-    "free_energy_J_per_m3",
-    "stress_Pa",
-    "driving_force_J_per_m3",
-    "resistance_J_per_m3",
-    "dissipated_J_per_m3",
-    "plastic_work_J_per_m3",
-    "work_J_per_m3",
-    "tangent_stiffness_Pa",
-)

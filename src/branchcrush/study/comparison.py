@@ -46,6 +46,9 @@ def comparison_row(
         "rattler_fraction": packings.get("rattler_fraction"),
         "dissipated_share": certificate["dissipated_share_at_end"],
         "theta": model.get("theta"),
+        "form": model.get("form"),
+        "admissible": model.get("admissible"),
+        "inadmissible_from": model.get("inadmissible_from"),
         "force_evaluations": certificate["force_evaluations"],
-        "reason": fit.reason or model.get("reason"),
+        "reason": fit.reason or model.get("reason") or model.get("form_reason"),
     }

@@ -39,13 +39,23 @@ EXPECTED = {
     "rattler_fraction": 0.12,
     "dissipated_share": 0.15,
     "theta": 0.89,
+    "form": "moving_jamming",
+    "admissible": False,
+    "inadmissible_from": 0.55,
     "force_evaluations": 69000.0,
     "reason": None,
+}
+MODEL = {
+    "theta": 0.89,
+    "form": "moving_jamming",
+    "form_reason": None,
+    "admissible": False,
+    "inadmissible_from": 0.55,
 }
 
 
 def test_row_holds_the_results_beside_the_verdict(sample):
-    row = comparison_row("paper", sample().fit, {"theta": 0.89}, CERTIFICATE)
+    row = comparison_row("paper", sample().fit, MODEL, CERTIFICATE)
     assert row == EXPECTED
     assert list(row) == list(EXPECTED)
 
@@ -65,6 +75,11 @@ def test_row_with_an_exponent_but_no_model_says_why_there_is_no_theta(sample):
     row = comparison_row("paper", sample().fit, {"reason": "no elastic law"}, CERTIFICATE)
     assert (row["exponent"], row["theta"]) == (pytest.approx(3.0), None)
     assert row["reason"] == "no elastic law"
+
+
+def test_row_without_the_form_on_the_front_says_why(sample):
+    model = {**MODEL, "form": "paper", "form_reason": "coarser"}
+    assert comparison_row("paper", sample().fit, model, CERTIFICATE)["reason"] == "coarser"
 
 
 def test_what_takes_the_certificate_away_is_told_beside_the_verdict():
