@@ -48,7 +48,7 @@ class Pair:
 
     @property
     def energy_exponent(self) -> float:
-        """a of Psi ~ eps_e^a: 2 with linear contacts, 5/2 with Hertz's [-]."""
+        """A of Psi ~ eps_e^a: 2 with linear contacts, 5/2 with Hertz's [-]."""
         return self.contact.exponent + 1.0
 
     @property

@@ -6,8 +6,6 @@ writes studies/mixing/predictions.csv. It reads config.yaml and no packing: the 
 packed after the file was committed.
 """
 
-from pathlib import Path
-
 import numpy as np
 from pairs import STUDY, Pair, study_pairs
 
