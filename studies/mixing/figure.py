@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullFormatter
 from pairs import Pair
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
@@ -26,6 +27,7 @@ TITLES = {
     "held_a": "held out: lognormal toward fractal",
     "held_b": "held out: narrow toward lognormal fines",
 }
+LAWS = {"linear": "linear", "hertz": "Hertz"}
 # Elastic strains that are drawn, the middle one with its intervals.
 SHOWN = {0.02: ("o", "none"), 0.04: ("o", MEASURED), 0.07: ("s", "none")}
 
@@ -42,7 +44,8 @@ def draw(
     with figure(path, 114, size, panels) as axes:
         for pair, ax in zip(pairs, axes.flat, strict=False):
             _energy(ax, pair, compared, predictions)
-        axes.flat[0].legend(loc="upper left")
+        handles = axes.flat[0].get_legend_handles_labels()
+        axes.flat[0].figure.legend(*handles, loc="outside lower center", ncols=4)
         _jamming(axes.flat[-1], pairs, measured, predictions)
 
 
@@ -59,22 +62,18 @@ def _energy(ax: Axes, pair: Pair, compared: pd.DataFrame, predictions: pd.DataFr
     ]
     for level, (marker, face) in SHOWN.items():
         at = rows[rows["level"] == level]
-        look = {"color": MEASURED, "marker": marker, "mfc": face, "zorder": 5}
-        ax.plot(
-            at["crushing"],
-            at["energy_ratio"],
-            "",
-            ls="none",
-            label=f"DEM, elastic strain {level}",
-            **look,
-        )
+        look = {"color": MEASURED, "marker": marker, "mfc": face, "ls": "none", "zorder": 5}
+        label = f"DEM, elastic strain {level:g}"
+        ax.plot(at["crushing"], at["energy_ratio"], label=label, **look)
         if face != "none":
             limits = at[["energy_ratio_low", "energy_ratio_high"]]
             ax.vlines(at["crushing"], *limits.to_numpy().T, color=MEASURED, lw=0.8)
     ax.axhline(1.0, color=FAINT, lw=0.6, zorder=0)
     ax.set_yscale("log")
+    ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_title(f"{TITLES.get(pair.name, pair.name)}, {pair.law}")
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.set_title(f"{TITLES.get(pair.name, pair.name)}, {LAWS[pair.law]}")
     ax.set_xlabel("C, share of the ultimate grading by mass [-]")
     ax.set_ylabel(r"$\Psi(C)/\Psi(0)$ at equal elastic strain [-]")
 
@@ -95,7 +94,7 @@ def _jamming(
             predicted.to_numpy()
             - rows[["jamming_solid_fraction_high", "jamming_solid_fraction_low"]].to_numpy().T
         )
-        ax.plot(rows["crushing"], error, "o-", color=color, label=f"{pair.name}, {pair.law}")
+        ax.plot(rows["crushing"], error, "o-", color=color, label=f"{pair.name}, {LAWS[pair.law]}")
         ax.vlines(rows["crushing"], *limits, color=color, lw=0.6)
     ax.axhline(0.0, color=FAINT, lw=0.6, zorder=0)
     ax.set_title("jamming point by rods, from the grading alone")
