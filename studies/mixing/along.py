@@ -112,7 +112,9 @@ def at_level(
     return float(np.exp(found) if logarithmic else found)
 
 
-def sample_paths(results: Path, pair: Pair, sample: Sample) -> tuple[list[SeedPath], list[str]]:
+def sample_paths(
+    results: Path, pair: Pair, sample: Sample
+) -> tuple[list[SeedPath], list[str], list[str]]:
     """Return the packings of a sample that are there, and what is missing or of no use.
 
     Parameters
@@ -126,9 +128,11 @@ def sample_paths(results: Path, pair: Pair, sample: Sample) -> tuple[list[SeedPa
     -------
     paths : list of SeedPath
     missing : list of str
-        A line each.
+        A line each for packings that are not there.
+    untold : list of str
+        A line each for packings that are, without a jamming point.
     """
-    paths, missing = [], []
+    paths, missing, untold = [], [], []
     for seed in sample.settings["seeds"]:
         folder = results / sample.name / f"seed_{seed}"
         if not (folder / "made.json").exists():  # the last that a packing writes
@@ -137,9 +141,11 @@ def sample_paths(results: Path, pair: Pair, sample: Sample) -> tuple[list[SeedPa
         path = _seed_path(folder, pair, sample, seed)
         if path is None:
             missing.append(f"{sample.name}, seed {seed}: fewer than two states at rest carry load")
-        else:
-            paths.append(path)
-    return paths, missing
+            continue
+        paths.append(path)
+        if np.isnan(path.jamming):
+            untold.append(f"{sample.name}, seed {seed}: its path does not tell a jamming point")
+    return paths, missing, untold
 
 
 def _seed_path(folder: Path, pair: Pair, sample: Sample, seed: int) -> SeedPath | None:
@@ -152,17 +158,19 @@ def _seed_path(folder: Path, pair: Pair, sample: Sample, seed: int) -> SeedPath 
     _, radii, _ = read_packing(folder / "packing.npz")
     tables = (read_table(folder / f"{name}.parquet") for name in ("contacts", "wall_contacts"))
     networks = list(state_networks(radii, *tables, used["state"].tolist()))
-    jamming = _jamming(table, pair)
+    jamming = _jamming(table, pair, sample)
     return SeedPath(seed, _values(used, networks, pair, jamming), networks, jamming)
 
 
-def _jamming(table: Table, pair: Pair) -> float:
+def _jamming(table: Table, pair: Pair, sample: Sample) -> float:
+    """Return phi_J, nan where the path does not tell it: it carried load before its first step."""
     columns = (table[name] for name in ("solid_fraction", "mean_stress_Pa"))
     try:
         point = jamming_point(*columns, pair.contact.exponent, table["carries_load"])
     except FitError:
         return float("nan")
-    return point.solid_fraction
+    began = sample.settings["loading"]["approach_solid_fraction"]
+    return point.solid_fraction if point.solid_fraction >= began else float("nan")
 
 
 def _values(

@@ -127,7 +127,8 @@ def fraction_rows(pair: Pair, paths: Paths, predictions: pd.DataFrame) -> list[d
         seeds = paths[sample.crushing]
         if not seeds:
             continue
-        jammed = [path.jamming < fraction for path in seeds]
+        # One that does not tell its jamming point carried load from the start.
+        jammed = [not path.jamming >= fraction for path in seeds]
         row = {
             "sample": sample.name,
             "pair": pair.name,

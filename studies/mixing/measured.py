@@ -206,15 +206,21 @@ def summary_rows(pair: Pair, paths: Paths, predictions: pd.DataFrame) -> list[di
                     value = interval_of_refits(
                         function(errors), function(errors_drawn), seeds, CONFIDENCE
                     )
+                    if statistic == "rms":
+                        value = value._replace(low=max(value.low, 0.0))
                     row |= value.named(f"{statistic}_{name}")
             rows.append(row)
     return rows
 
 
-_STATISTICS = {
-    "rms": lambda errors: np.sqrt(np.nanmean(errors**2, axis=0)),
-    "bias": lambda errors: np.nanmean(errors, axis=0),
-}
+def _mean(values):
+    """Return the mean of the first axis over what is known."""
+    known = np.isfinite(values)
+    with np.errstate(invalid="ignore"):
+        return np.where(known, values, 0.0).sum(axis=0) / known.sum(axis=0)
+
+
+_STATISTICS = {"rms": lambda errors: np.sqrt(_mean(errors**2)), "bias": _mean}
 
 
 def _name(pair, crushing):

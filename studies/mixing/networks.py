@@ -103,12 +103,20 @@ def _models(
     for model, coordination in (
         (PARKING, _parking(radius.tobytes(), share.tobytes())),
         (RODS, rod_contacts(radius, share)),
-        (RODS_LOADED, compressed_coordination(radius, share, strain)[0]),
+        (RODS_LOADED, _compressed(radius, share, strain)),
     ):
         if coordination is None or edges is None:
             yield model, None, coordination
         else:
             yield model, pair_shares(radius, share * coordination.contacts, edges), coordination
+
+
+def _compressed(radius, share, strain):
+    """Return the rods' contact numbers, None where the strain leaves no voids to rods."""
+    try:
+        return compressed_coordination(radius, share, strain)[0]
+    except ValueError:
+        return None
 
 
 @cache
