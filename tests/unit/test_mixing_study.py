@@ -97,8 +97,9 @@ def test_beyond_the_states_nothing_is_known(study):
 
 def test_a_state_after_which_the_strain_falls_again_is_left_out(study):
     # 0.03 was loaded, rearranged and was at 0.02 then.
-    found = study.along.at_level([0.01, 0.03, 0.02, 0.04], [1.0, 99.0, 4.0, 16.0], 0.03)
-    assert found == pytest.approx(4.0 * 1.5**2)
+    path = [0.01, 0.03, 0.02, 0.04], [1.0, 99.0, 4.0, 16.0]
+    assert study.along.at_level(*path, 0.015) == pytest.approx(1.5**2)
+    assert study.along.at_level(*path, 0.03) == pytest.approx(4.0 * 1.5**2)
 
 
 def made_up(study, pair, factor, jamming, scatter=()):
