@@ -28,6 +28,7 @@ from page import (
 )
 from pairs import STUDY, study_pairs
 from predict import PREDICTIONS
+from verdicts import verdict_block
 
 from branchcrush.files.tables import provenance, read_table, write_table
 
@@ -98,6 +99,13 @@ def _blocks(pairs, tables, predictions, missing, untold):
         told += ["", "At elastic strains and stresses only:", "", *(f"- {line}" for line in untold)]
     return {
         "packings there": told,
+        "verdicts": verdict_block(
+            pairs,
+            compared,
+            tables["mixing_errors"],
+            tables["mixing_assumptions"],
+            predictions,
+        ),
         "packings": packing_block(measured, predictions),
         "energy": energy_block(pairs, compared, held_out=False),
         "held out": energy_block(pairs, compared, held_out=True),

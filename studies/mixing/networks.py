@@ -89,8 +89,10 @@ def size_rows(pair: Pair, sample: Sample, paths: Sequence[SeedPath]) -> Iterator
 
 
 def _strain(paths, level):
-    """Return the mean strain from jamming of the states nearest to a level, at least 0."""
-    return max(float(np.nanmean([path.strain_near(level) for path in paths])), 0.0)
+    """Return the mean strain from jamming of the states nearest to a level; nan if none tells."""
+    strains = np.array([path.strain_near(level) for path in paths])
+    known = strains[np.isfinite(strains)]
+    return max(float(known.mean()), 0.0) if known.size else float("nan")
 
 
 def _models(

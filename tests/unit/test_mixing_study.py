@@ -16,7 +16,8 @@ from branchcrush.gradings.rods import rod_map
 
 REPOSITORY = Path(__file__).parents[2]
 STUDY = REPOSITORY / "studies" / "mixing"
-SCRIPTS = ("pairs", "predict", "along", "measured", "networks", "assumptions", "page", "compare")
+SCRIPTS = ("pairs", "predict", "along", "measured", "networks", "assumptions", "page", "verdicts")
+SCRIPTS += ("compare",)
 
 
 @pytest.fixture(scope="module")
