@@ -1,0 +1,236 @@
+"""The tables of docs/mixing.md, between its marks: every number there comes from here."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from assumptions import LEVEL
+from measured import UNCHANGED
+from pairs import Pair
+
+_BEGIN, _END = "<!-- made by studies/mixing/compare.py: {} -->", "<!-- end -->"
+FORMS = {
+    "moving_jamming": "moving jamming point, rods",
+    "moving_jamming_parking": "the same, parking",
+    "paper": "paper",
+    "density": "with density",
+    "einav": "Einav",
+    "tengattini": "Tengattini",
+    UNCHANGED: "no change",
+}
+# Tengattini's differs from Einav's in the jamming point alone, which no row here but one sees.
+SHOWN = [name for name in FORMS if name != "tengattini"]
+BASES = {
+    "elastic_strain": "equal elastic strain",
+    "strain": "equal strain from jamming",
+    "stress": "equal stress",
+}
+MODELS = {
+    "random_contact": "Eq. 4",
+    "parking": "parking",
+    "rods": "rods",
+    "rods_compressed": "rods, compressed",
+}
+
+
+def filled(page: str, blocks: Mapping[str, Sequence[str]]) -> str:
+    """Return a page with the lines of each block between its marks.
+
+    Examples
+    --------
+    >>> page = "<!-- made by studies/mixing/compare.py: one --><!-- end -->"
+    >>> filled(page, {"one": ["| a |"]}).splitlines()[1]
+    '| a |'
+    """
+    for name, lines in blocks.items():
+        begin = _BEGIN.format(name)
+        place = re.compile(f"({re.escape(begin)}).*?({re.escape(_END)})", re.DOTALL)
+        if not place.search(page):
+            raise SystemExit(f"error: docs/mixing.md has no place for {begin} and {_END}")
+        made = "\n".join(lines)
+        page = place.sub(lambda found, made=made: f"{found[1]}\n{made}\n{found[2]}", page)
+    return page
+
+
+def energy_block(pairs: Sequence[Pair], compared: pd.DataFrame, *, held_out: bool) -> list[str]:
+    """Return the energy of each mixture at equal elastic strain, and each form's."""
+    header = ["sample", "elastic strain", "DEM", *(FORMS[form] for form in SHOWN[:-1])]
+    rows = []
+    if not len(compared):
+        return _table(header, rows)
+    at = compared[compared["basis"] == "elastic_strain"]
+    for pair in pairs:
+        if pair.held_out != held_out:
+            continue
+        of_pair = at[(at["pair"] == pair.name) & (at["law"] == pair.law)]
+        for (_, level), group in of_pair.groupby(["crushing", "level"]):
+            said = group.set_index("form")
+            rows.append(
+                [
+                    group["sample"].iloc[0],
+                    f"{level:g}",
+                    _interval(group.iloc[0], "energy_ratio"),
+                    *(_number(said["predicted_energy_ratio"].get(form)) for form in SHOWN[:-1]),
+                ]
+            )
+    return _table(header, rows)
+
+
+def error_block(summary: pd.DataFrame, part: str = "ln_energy") -> list[str]:
+    """Return the errors of every form, by pair and by what is held equal."""
+    header = ["pair", "law", "at", "comparisons", *(FORMS[form] for form in SHOWN)]
+    rows = []
+    for (pair, law, basis), group in _groups(summary, ["pair", "law", "basis"]):
+        if part == "ln_stress" and basis == "elastic_strain":
+            continue  # the same as of the energy
+        said = group.set_index("form")
+        if f"rms_{part}" not in said or said[f"rms_{part}"].isna().all():
+            continue
+        cells = [_error(said, form, part) for form in SHOWN]
+        count = int(said["comparisons"].max())
+        rows.append([pair, law, BASES[basis], count, *cells])
+    return _table(header, rows)
+
+
+def packing_block(measured: pd.DataFrame, predictions: pd.DataFrame) -> list[str]:
+    """Return what the packings are like at one elastic strain, and phi_J beside the rods'."""
+    header = ["sample", "seeds", "φ_J", "by rods", "κ", "κ\\*", "rattlers", "mass that bears", "n"]
+    at = _at_level(measured)
+    said = predictions[predictions["form"] == "moving_jamming"].set_index("sample")
+    rows = [
+        [
+            row["sample"],
+            row["seeds"],
+            _interval(row, "jamming_solid_fraction", 4),
+            f"{said.loc[row['sample'], 'jamming_solid_fraction']:.4f}",
+            _interval(row, "coordination_number"),
+            _interval(row, "mechanical_coordination_number"),
+            _interval(row, "rattler_fraction"),
+            _interval(row, "bearing_mass", 3),
+            _interval(row, "exponent"),
+        ]
+        for _, row in at.iterrows()
+    ]
+    return _table(header, rows)
+
+
+def assumption_block(assumptions: pd.DataFrame) -> list[str]:
+    """Return the paper's assumptions, each beside what was measured."""
+    header = ["sample", "n", "ρ(C)/ρ(0)", "φ_J(C)"]
+    header += ["B(l) from Eq. 7 with C", "with the best share", "that share", "C by Eq. 15"]
+    rows = [
+        [
+            row["sample"],
+            _interval(row, "exponent"),
+            _interval(row, "density_ratio"),
+            _interval(row, "jamming_solid_fraction", 4),
+            *(_number(row.get(name), 3) for name in ("mixed_by_crushing", "mixed_at_best")),
+            *(_number(row.get(name), 2) for name in ("best_share", "crushing_by_moments")),
+        ]
+        for _, row in assumptions.iterrows()
+    ]
+    return _table(header, rows)
+
+
+def fraction_block(fractions: pd.DataFrame) -> list[str]:
+    """Return energies at equal solid fraction."""
+    forms = ("moving_jamming", "paper", "einav", "tengattini")
+    header = ["sample", "φ", "packings that carry load", "DEM", *(FORMS[form] for form in forms)]
+    rows = [
+        [
+            row["sample"],
+            f"{row['solid_fraction']:.4f}",
+            f"{row['jammed']} of {row['seeds']}",
+            _interval(row, "energy_ratio") if row["jammed"] else "0",
+            *(_number(row[f"{form}_energy_ratio"], 3) for form in forms),
+        ]
+        for _, row in fractions.iterrows()
+    ]
+    return _table(header, rows)
+
+
+def fines_block(pairs: Sequence[Pair], measured: pd.DataFrame) -> list[str]:
+    """Return what soil mechanics asks of a gap-graded soil."""
+    header = ["sample", "fines [%]", "φ_J", "void ratio e", "skeleton void ratio e_sk"]
+    header += ["α, stress in the fines", "fines that carry load", "coarse-coarse contacts"]
+    rows = []
+    if "stress_reduction_factor" not in measured:
+        return _table(header, rows)
+    for _, row in _at_level(measured).iterrows():
+        if np.isnan(row["stress_reduction_factor"]) and row["crushing"] > 0.0:
+            continue
+        if np.isnan(row["coarse_coarse_coordination"]):
+            continue
+        fraction = row["jamming_solid_fraction"]
+        void, fines = 1.0 / fraction - 1.0, row["crushing"]
+        rows.append(
+            [
+                row["sample"],
+                f"{100 * fines:g}",
+                _interval(row, "jamming_solid_fraction", 4),
+                f"{void:.3f}",
+                f"{(void + fines) / (1.0 - fines):.3f}",
+                _interval(row, "stress_reduction_factor"),
+                _interval(row, "bearing_fines"),
+                _interval(row, "coarse_coarse_coordination"),
+            ]
+        )
+    return _table(header, rows)
+
+
+def network_block(networks: pd.DataFrame) -> list[str]:
+    """Return distances of branch lengths, and who carries load, by each model."""
+    header = ["sample", "elastic strain", *(f"KS {name}" for name in MODELS.values())]
+    header += ["κ", *(f"κ {MODELS[name]}" for name in list(MODELS)[1:])]
+    header += ["carry load", *(MODELS[name] for name in list(MODELS)[1:])]
+    rows = []
+    for (sample, level), group in _groups(networks, ["sample", "elastic_strain"]):
+        said = group.set_index("model")
+        row = [sample, f"{level:g}"]
+        row += [_number(said["kolmogorov_smirnov"].get(name), 3) for name in MODELS]
+        for name in ("coordination_number", "load_bearing_fraction"):
+            row.append(_number(group[name].iloc[0]))
+            predicted = said[f"predicted_{name}"]
+            row += [_number(predicted.get(model)) for model in list(MODELS)[1:]]
+        rows.append(row)
+    return _table(header, rows)
+
+
+def _at_level(measured):
+    """Return the rows of each sample at the elastic strain that tables are told at."""
+    if "basis" not in measured:
+        return measured
+    return measured[(measured["basis"] == "elastic_strain") & (measured["level"] == LEVEL)]
+
+
+def _groups(table: pd.DataFrame, keys: list[str]) -> Iterable:
+    return table.groupby(keys, sort=False) if len(table) else []
+
+
+def _table(header: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
+    if not rows:
+        return ["Nothing of this was packed yet."]
+    lines = [header, ["---"] * len(header), *rows]
+    return [f"| {' | '.join(map(str, line))} |" for line in lines]
+
+
+def _number(value: float | None, digits: int = 2) -> str:
+    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}f}"
+
+
+def _interval(row, name, digits=2):
+    low = row.get(f"{name}_low", np.nan)
+    text = _number(row.get(name, np.nan), digits)
+    return (
+        text
+        if not np.isfinite(low)
+        else f"{text} ({low:.{digits}f}–{row[f'{name}_high']:.{digits}f})"
+    )
+
+
+def _error(said, form, part):
+    if form not in said.index or not np.isfinite(said.loc[form, f"rms_{part}"]):
+        return "–"
+    return f"{_interval(said.loc[form], f'rms_{part}')}, {said.loc[form, f'bias_{part}']:+.2f}"
