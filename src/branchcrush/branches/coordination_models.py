@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from branchcrush.branches.coordination import ISOSTATIC, Coordination, solid_angle
+from branchcrush.branches.load_bearing import rod_contacts
 from branchcrush.branches.parking import parking_contacts
 from branchcrush.errors import FitError
 from branchcrush.packings.contacts import STABLE_CONTACTS
@@ -167,4 +168,5 @@ MODELS = {
     "parking": CoordinationModel(
         parking_contacts, label="random parking", color="#3a7d44", marker="o"
     ),
+    "rods": CoordinationModel(rod_contacts, label="rods that push", color="#14a0bd", marker="X"),
 }
