@@ -16,6 +16,7 @@ PREDICTIONS = {
     "surface",
     "self_consistent",
     "parking",
+    "rods",
 }
 
 

@@ -86,7 +86,15 @@ def test_claims_are_counted_by_their_answers(page, sample):
 
 def test_bad_lengths_are_named(page, sample):
     text = page(sample("good"), sample("bad", parking=0.1))
-    assert "measured ones in 1 of 2 samples (not in bad)." in text
+    assert "measured ones in 1 of 2 samples (not in bad). By rods that push" in text
+    assert "which have none either, they are in none of 2." in text
+
+
+def test_a_second_solution_of_random_parking_is_named(page, sample):
+    text = page(sample("sand"), sample("gap", solutions=2))
+    assert "Of gap random parking has two solutions; the coarse one is shown" in text
+    assert "The other has κ = 5.80 and 0.04 rattlers." in text
+    assert "Of sand random" not in text
 
 
 def test_a_study_without_any_number_says_why():
