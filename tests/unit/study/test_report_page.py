@@ -92,6 +92,14 @@ def fit(sample):
     return replace(whole, end=replace(whole.end, predictors=predictors))
 
 
+RODS = {
+    "jamming_solid_fraction": 0.7208,
+    "load_bearing_by_number": 0.23,
+    "load_bearing_by_mass": 0.91,
+    "finest_load_bearing_diameter_m": 3.2e-4,
+}
+
+
 @pytest.fixture
 def page(tmp_path, fit):
     """Return a function that renders samples and returns the page without its images."""
@@ -108,7 +116,12 @@ def page(tmp_path, fit):
             "model": MODEL,
             "statistics": STATISTICS,
             "certificate": certificate,
-            "grading": {"target": GRADING, "realised": GRADING, "representativity": STANDING},
+            "grading": {
+                "target": GRADING,
+                "realised": GRADING,
+                "representativity": STANDING,
+                "rods": RODS,
+            },
             "figures": dict.fromkeys(FIGURES, image),
         }
         return SamplePage(**(whole | parts))
@@ -292,3 +305,10 @@ def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
     html = page({"model": {**model, "yields_on_path": False}})
     assert "crushing would release nothing and never begins" in html
     assert "Crushing begins at" not in html
+
+
+def test_page_tells_which_grains_carry_load_by_rods(page):
+    html = page({})
+    assert "0.721" in html and "<td>23, 91</td>" in html and "<td>0.32</td>" in html
+    nothing = {"target": GRADING, "realised": GRADING, "representativity": STANDING}
+    assert "by rods that push" not in page({"grading": nothing | {"rods": {"reason": "none"}}})
