@@ -80,9 +80,9 @@ def carrying_words(found: Carrying | None, unit: str, metres: float) -> str:
     --------
     >>> carrying_words(Carrying(LoadBearing(0.721, 0.24, 0.93, 1.6e-4, 1.4), 2.9, ""), "mm", 1e-3)
     ... # doctest: +NORMALIZE_WHITESPACE
-    'of your grains 24 % will carry load (by mass 93 %), the finest that do are 0.32 mm; they jam at
-    a solid fraction of 0.721 with 1.4 contacts a grain, rattlers counted; 2.9 at the end of the
-    loading (rods that push)'
+    'of your grains 24 % will carry load (by mass 93 %), the finest that do are 0.32 mm in diameter;
+    they jam at a solid fraction of 0.721 with 1.4 contacts a grain, rattlers counted; 2.9 at the
+    end of the loading (rods that push)'
     """
     if found is None:
         return "not known: rods that push find no grain of this grading that does"
@@ -90,7 +90,7 @@ def carrying_words(found: Carrying | None, unit: str, metres: float) -> str:
     text = (
         f"of your grains {_percent(jammed.by_number)} % will carry load (by mass "
         f"{_percent(jammed.by_mass)} %), the finest that do are "
-        f"{2.0 * jammed.finest / metres:.3g} {unit}; they jam at a solid fraction of "
+        f"{2.0 * jammed.finest / metres:.3g} {unit} in diameter; they jam at a solid fraction of "
         f"{jammed.solid_fraction:.3f} with {jammed.coordination_number:.2g} contacts a grain, "
         "rattlers counted; "
     )

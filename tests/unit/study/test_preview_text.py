@@ -67,7 +67,10 @@ def test_text_holds_what_a_person_asks_before_a_run():
     ("sample", "expected"),
     [
         # Equal spheres of 2 mm: 0.95 carry load, at 0.640.
-        ({}, "the finest that do are 2 mm; they jam at a solid fraction of 0.640 with 5.7"),
+        (
+            {},
+            "finest that do are 2 mm in diameter; they jam at a solid fraction of 0.640 with 5.7",
+        ),
         ({}, "all this of a periodic cell: between walls they jam looser"),
         # 0.741 at the end: kappa* = 6 + 7.8 sqrt(0.101) = 8.48, and 0.97 of the grains carry load.
         ({"boundary": "periodic"}, "8.2 at the end of the loading (rods that push)"),
