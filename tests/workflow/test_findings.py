@@ -17,6 +17,7 @@ PREDICTIONS = {
     "surface",
     "self_consistent",
     "parking",
+    "rods",
 }
 
 

@@ -8,9 +8,13 @@
 `contact_numbers`
     Who touches whom, measured: `ContactSums` is what a seed adds, `contact_number_table`,
     `pair_table` and `assortativity` what all seeds say.
-`coordination_models`, `parking`, `coordination`
+`coordination_models`, `coordination`
     Contact numbers from the grading alone. `MODELS` holds a `CoordinationModel` each, with its look
     in figures; each returns a `Coordination`.
+`parking`, `parking_places`
+    One of them, as many neighbours as find room: all of its `parking_solutions`.
+`load_bearing`
+    Another, rods that push: which grains carry load, at jamming and beyond.
 `predictions`, `nodes`
     Branch lengths that Eq. 4 and every model predict for a grading, a `Prediction` each, and how
     far they are from the measured ones, `distances`. `PREDICTIONS` holds the looks of all.

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from branchcrush.branches.coordination import ISOSTATIC, Coordination, solid_angle
-from branchcrush.branches.parking import parking_contacts
+from branchcrush.branches.load_bearing import rod_contacts
+from branchcrush.branches.parking import ParkingSolution, parking_contacts, parking_solutions
 from branchcrush.errors import FitError
 from branchcrush.packings.contacts import STABLE_CONTACTS
 
@@ -139,12 +140,15 @@ class CoordinationModel:
     label : str
         What figures call it.
     color, marker : str
+    solutions : callable, optional
+        Of a model that may have more than one: all of them, the one of `contacts` first.
     """
 
     contacts: Callable[[NDArray, NDArray], Coordination]
     label: str
     color: str
     marker: str
+    solutions: Callable[[NDArray, NDArray], list[ParkingSolution]] | None = None
 
 
 # Each with the name that tables give it.
@@ -165,6 +169,11 @@ MODELS = {
         marker="D",
     ),
     "parking": CoordinationModel(
-        parking_contacts, label="random parking", color="#3a7d44", marker="o"
+        parking_contacts,
+        label="random parking",
+        color="#3a7d44",
+        marker="o",
+        solutions=parking_solutions,
     ),
+    "rods": CoordinationModel(rod_contacts, label="rods that push", color="#14a0bd", marker="X"),
 }

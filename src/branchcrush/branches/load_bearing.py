@@ -1,5 +1,8 @@
 """Who carries load, and with how many contacts, by rods that push: from the grading alone."""
 
+from typing import NamedTuple
+
+import numpy as np
 from numpy.typing import NDArray
 
 from branchcrush.branches.coordination import ISOSTATIC, Coordination
@@ -7,6 +10,64 @@ from branchcrush.branches.coordination_laws import jamming_law
 from branchcrush.errors import FitError
 from branchcrush.gradings.rods import RodMap, gap_at, rod_map
 from branchcrush.packings.contacts import STABLE_CONTACTS
+
+# A diameter of which fewer grains than this carry load counts as finer than those that do.
+_SOME = 0.01
+# Rods that the gap beyond jamming is sought with; with all of them the same ones push.
+_SEARCHED = 2_000
+
+
+class LoadBearing(NamedTuple):
+    """Which grains of a grading carry load where it jams, by rods that push."""
+
+    solid_fraction: float  # phi_J [-]
+    by_number: float  # share of the grains that carry load [-]
+    by_mass: float  # and of their mass [-]
+    finest: float  # radius of the finest of which 1 % or more carry load [unit of the radii]
+    coordination_number: float  # kappa, rattlers counted [-]
+
+
+def load_bearing(radius: NDArray, share: NDArray) -> LoadBearing:
+    r"""Return which grains carry load at jamming, from the grading alone.
+
+    .. math:: \sum_i w_i \beta_i, \qquad
+        \frac{\sum_i w_i R_i^3 \beta_i}{\sum_i w_i R_i^3}, \qquad \kappa = \sum_i w_i c_i
+
+    Parameters
+    ----------
+    radius, share : ndarray, shape (K,)
+        Radii [any unit], and their shares of the number of grains [-].
+
+    Returns
+    -------
+    LoadBearing
+
+    Raises
+    ------
+    FitError, ValueError
+        As `rod_coordination`, and as `gradings.rods.rod_map`.
+
+    Examples
+    --------
+    A tenth of the mass ten times finer, in the pores of the coarse:
+
+    >>> radius, mass = np.array([1.0, 0.1]), np.array([0.9, 0.1])
+    >>> found = load_bearing(radius, mass / radius**3 / (mass / radius**3).sum())
+    >>> round(found.solid_fraction, 2), round(found.by_number, 3), round(found.by_mass, 2)
+    (0.71, 0.008, 0.86)
+    >>> found.finest
+    1.0
+    """
+    rods = rod_map(radius, share)
+    contacts, bearing = rod_coordination(radius, share, rods)
+    mass = share * radius**3
+    return LoadBearing(
+        rods.solid_fraction,
+        float(share @ bearing / share.sum()),
+        float(mass @ bearing / mass.sum()),
+        float(radius[bearing >= _SOME].min(initial=np.inf)),
+        float(share @ contacts / share.sum()),
+    )
 
 
 def rod_contacts(radius: NDArray, share: NDArray) -> Coordination:
@@ -28,7 +89,6 @@ def rod_contacts(radius: NDArray, share: NDArray) -> Coordination:
 
     Examples
     --------
-    >>> import numpy as np
     >>> single = rod_contacts(np.array([2.0]), np.array([1.0]))
     >>> round(float(single.contacts[0] / single.load_bearing[0]), 6)
     6.0
@@ -68,7 +128,6 @@ def rod_coordination(
 
     Examples
     --------
-    >>> import numpy as np
     >>> radius, share = np.array([1.0, 0.01]), np.array([0.5, 0.5])
     >>> coordination = rod_coordination(radius, share, rod_map(radius, share))
     >>> coordination.load_bearing.round(2).tolist(), coordination.contacts.round(1).tolist()
@@ -113,7 +172,6 @@ def compressed_coordination(
 
     Examples
     --------
-    >>> import numpy as np
     >>> coordination, phi = compressed_coordination(np.array([1.0]), np.array([1.0]), 0.05)
     >>> round(phi, 3), round(float(coordination.contacts[0]), 2)
     (0.674, 7.11)
@@ -125,6 +183,6 @@ def compressed_coordination(
         limit = 1.0 - jammed.solid_fraction
         raise ValueError(f"a strain of {strain:g} beyond jamming; it must be from 0 to {limit:.3g}")
     phi = jammed.solid_fraction / (1.0 - strain)
-    rods = rod_map(radius, share, gap_at(radius, share, phi))
+    rods = rod_map(radius, share, gap_at(radius, share, phi, _SEARCHED))
     mechanical = float(jamming_law(phi - jammed.solid_fraction))
     return rod_coordination(radius, share, rods, mechanical), phi

@@ -1,17 +1,35 @@
 """Contact numbers by random parking: as many neighbours as find room on a grain, some touching."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.branches.coordination import ISOSTATIC, Coordination, solid_angle
+from branchcrush.branches.coordination import Coordination
+from branchcrush.branches.parking_places import PARKING_COVERAGE, Places
 from branchcrush.errors import FitError
-from branchcrush.packings.contacts import STABLE_CONTACTS
+from branchcrush.gradings.rods import rod_map
 
-# The share of a surface that discs cover when they are put there at random, one after another,
-# until none fits any more.
-PARKING_COVERAGE = 0.547
-_ITERATIONS = 500
-_CONVERGED = 1e-9
+# Probabilities to touch that are tried; with less, six contacts would need eleven places and more.
+_TRIED = np.linspace(0.55, 1.0, 46)
+# A trial begins with contacts as R^3, nearly all on the coarse grains, and with contacts as R^2.
+_BEGINNINGS = (3, 2)
+# It only has to tell on which side of six contacts it is, so few radii and iterations do.
+_RADII, _ITERATIONS, _WITHIN = 100, 150, 1e-6
+# Then the whole grading settles, from there.
+_MOST, _SETTLED = 2000, 1e-11
+# Contacts beyond six a grain that are none, over all contacts; at a jump more are left.
+_NONE = 1e-7
+# Trials whose contacts are less apart, over all contacts, lead to one solution.
+_SAME_TRIAL, _SAME = 0.05, 1e-4
+
+
+class ParkingSolution(NamedTuple):
+    """One way in which the grains of a grading may carry load by random parking."""
+
+    name: str  # only; where there are more coarse, fine, and middle between them
+    coordination: Coordination
+    touching: float  # p, probability of a neighbour to touch [-]
 
 
 def parking_contacts(
@@ -39,12 +57,12 @@ def parking_contacts(
     Returns
     -------
     Coordination
+        Of the first of `parking_solutions`.
 
     Raises
     ------
     FitError
-        When there is no room for six neighbours, or when the contact numbers do not settle, as
-        with two sizes where the coarse ones are about to carry all the load.
+        As `parking_solutions`.
 
     Examples
     --------
@@ -60,54 +78,154 @@ def parking_contacts(
     Phys. Rev. E 68, 011306, for six contacts; in the spirit of Clusel, Corwin, Siemens and Brujic
     (2009), Nature 460, 611.
     """
-    angles = solid_angle(radius[:, None], radius)
-    contacts = ISOSTATIC * radius**2 / (share @ radius**2)
-    for _ in range(_ITERATIONS):
-        touched = share * contacts
-        room = coverage * 4.0 * np.pi / (angles @ (touched / touched.sum()))
-        # On the way there may be no room, whether there is at the end counts.
-        touching = _touching(room, share)
-        expected, bearing = _stable_binomial(room, touching)
-        change = np.abs(expected - contacts).max()
-        contacts = 0.5 * (contacts + expected)
-        if change < _CONVERGED * contacts.max():
-            if touching == 1.0:
-                raise FitError("the grains of this grading have no room for six neighbours")
-            return Coordination(expected, bearing)
-    raise FitError("the contact numbers of this grading do not settle")
+    return parking_solutions(radius, share, coverage)[0].coordination
 
 
-def _touching(room: NDArray, share: NDArray) -> float:
-    """Return p with which load-bearing grains have six contacts; 1 where there is no room."""
+def parking_solutions(
+    radius: NDArray, share: NDArray, coverage: float = PARKING_COVERAGE
+) -> list[ParkingSolution]:
+    r"""Return the stable solutions of random parking, the one that rods choose first.
+
+    .. math:: x(p) = \sum_i w_i c_i - 6 \sum_i w_i \beta_i = 0
+
+    Of some gradings there are two: in one the coarse grains alone carry load and the fines rattle
+    among them, in the other the fines carry it too. Random parking does not say which is real; rods
+    that push do: first comes the solution whose shares of grains that carry load, by number and by
+    mass, are together nearer to theirs. Contact numbers settle at each p of a scan, from nearly all
+    contacts on the coarse grains and from contacts by surface; where x rises through zero, p is
+    sought. Where x jumps over it there is no stable solution.
+
+    Parameters
+    ----------
+    radius, share, coverage
+        As for `parking_contacts`.
+
+    Returns
+    -------
+    list of ParkingSolution
+        One or two, seldom more.
+
+    Raises
+    ------
+    FitError
+        When there is no room for six neighbours, or no stable solution.
+
+    Examples
+    --------
+    A fifth of the mass six times finer: fines in the pores of the coarse, or all of them together.
+
+    >>> radius, mass = np.array([6.0, 1.0]), np.array([0.8, 0.2])
+    >>> found = parking_solutions(radius, mass / radius**3 / (mass / radius**3).sum())
+    >>> [(one.name, one.coordination.load_bearing.round(1).tolist()) for one in found]
+    [('coarse', [1.0, 0.0]), ('fine', [1.0, 1.0])]
+    """
+    share = share / share.sum()
+    grains = Places.of(radius, share, coverage)
+    found: list[tuple[Coordination, float]] = []
+    trials = _trials(radius, share, coverage)
+    for guess, low, high in trials.rising:
+        if any(_apart(guess, known, share) < _SAME_TRIAL for known, _ in found):
+            continue
+        solution = _isostatic(grains, guess, low, high)
+        if solution and all(
+            _apart(solution[0].contacts, known, share) > _SAME for known, _ in found
+        ):
+            found.append(solution)
+    if not found:
+        raise FitError(
+            "random parking has no stable solution for this grading"
+            if trials.enough
+            else "the grains of this grading have no room for six neighbours"
+        )
+    return _named(found, radius, share)
+
+
+class _Trials(NamedTuple):
+    """What the scan of p says."""
+
+    rising: list[tuple[NDArray, float, float]]  # contacts, and p below and above where x rises
+    enough: bool  # whether there are six contacts a grain when all neighbours touch
+
+
+def _trials(radius: NDArray, share: NDArray, coverage: float) -> _Trials:
+    """Return where contact numbers of a few radii pass six for each grain that carries load."""
+    order = np.argsort(radius)
+    mass = share * radius**3
+    both = np.cumsum((share + mass / mass.sum())[order]) / 2.0
+    cell = np.empty(radius.size, dtype=int)
+    cell[order] = np.unique((both * _RADII * (1.0 - 1e-12)).astype(int), return_inverse=True)[1]
+    few_share = np.bincount(cell, share)
+    few_radius = np.bincount(cell, share * radius) / few_share
+    few = Places.of(few_radius, few_share, coverage)
+    begun = np.stack([(few_radius / few_radius.max()) ** power for power in _BEGINNINGS], axis=1)
+    settled = few.settled(
+        np.repeat(begun, _TRIED.size, axis=1),
+        np.tile(_TRIED, len(_BEGINNINGS)),
+        _ITERATIONS,
+        _WITHIN,
+    )
+    excess = settled.excess.reshape(len(_BEGINNINGS), -1)
+    rising = [
+        (
+            settled.contacts[cell, beginning * _TRIED.size + number + 1],
+            float(_TRIED[number]),
+            float(_TRIED[number + 1]),
+        )
+        for beginning, number in zip(
+            *np.nonzero((excess[:, :-1] < 0.0) & (excess[:, 1:] >= 0.0)), strict=True
+        )
+    ]
+    return _Trials(rising, bool((excess[:, -1] > 0.0).any()))
+
+
+def _isostatic(
+    grains: Places, guess: NDArray, low: float, high: float
+) -> tuple[Coordination, float] | None:
+    """Return contact numbers and p that give six contacts near a guess; None where x jumps."""
     from scipy.optimize import brentq  # slow to import, and few jobs need it
 
+    last = grains.settled(guess[:, None], np.array([high]), _MOST, _SETTLED)
+
     def excess(touching: float) -> float:
-        expected, bearing = _stable_binomial(room, touching)
-        return share @ expected - ISOSTATIC * (share @ bearing)
+        nonlocal last
+        last = grains.settled(last.contacts, np.array([touching]), _MOST, _SETTLED)
+        return float(last.excess[0])
 
-    if excess(1.0) <= 0.0:
-        return 1.0
-    # With p almost 0, one contact for the largest, whoever has four contacts has no more.
-    return brentq(excess, 1.0 / room.max(), 1.0, xtol=1e-12)
-
-
-def _stable_binomial(room: NDArray, touching: float) -> tuple[NDArray, NDArray]:
-    """Return the mean of z where z is four or more, and the chance of that; z binomial."""
-    whole = np.floor(room)
-    more = room - whole
-    expected, bearing = np.zeros(room.size), np.zeros(room.size)
-    for trials, weight in ((whole, 1.0 - more), (whole + 1.0, more)):
-        fewer = np.arange(STABLE_CONTACTS)[:, None]
-        chance = _binomial(trials, fewer, touching)
-        bearing += weight * (1.0 - chance.sum(axis=0))
-        expected += weight * (trials * touching - (fewer * chance).sum(axis=0))
-    # Rounding may leave less than nothing.
-    return np.maximum(expected, 0.0), np.clip(bearing, 0.0, 1.0)
+    # The whole grading may pass six a little beside its few radii.
+    step = _TRIED[1] - _TRIED[0]
+    if last.excess[0] < 0.0:
+        low, high = high, min(high + step, 1.0)
+    elif excess(low) > 0.0:
+        low, high = low - step, low
+    if excess(low) > 0.0 or excess(high) < 0.0:
+        return None
+    touching = brentq(excess, low, high, xtol=1e-13)
+    left = excess(touching)
+    if abs(left) > _NONE * (grains.share @ last.contacts[:, 0]):
+        return None
+    return Coordination(last.contacts[:, 0], last.load_bearing[:, 0]), touching
 
 
-def _binomial(trials: NDArray, number: NDArray, chance: float) -> NDArray:
-    """Return the probability of some successes out of so many trials."""
-    from scipy.special import binom, xlog1py, xlogy  # slow to import, and few jobs need it
+def _apart(contacts: NDArray, known: Coordination, share: NDArray) -> float:
+    """Return how far contact numbers are apart, over all of the more."""
+    more = max(share @ contacts, share @ known.contacts)
+    return float(share @ np.abs(contacts - known.contacts) / more)
 
-    logs = xlogy(number, chance) + xlog1py(np.maximum(trials - number, 0.0), -chance)
-    return np.where(number <= trials, binom(trials, number) * np.exp(logs), 0.0)
+
+def _named(
+    found: list[tuple[Coordination, float]], radius: NDArray, share: NDArray
+) -> list[ParkingSolution]:
+    """Return the solutions by their names, the one that rods choose first."""
+    if len(found) == 1:
+        return [ParkingSolution("only", *found[0])]
+    mass = share * radius**3 / (share @ radius**3)
+    pushed = rod_map(radius, share).load_bearing(radius)
+
+    def from_rods(solution: ParkingSolution) -> float:
+        more = solution.coordination.load_bearing - pushed
+        return abs(share @ more) + abs(mass @ more)
+
+    by_bearing = sorted(found, key=lambda one: float(share @ one[0].load_bearing))
+    names = ["coarse", *["middle"] * (len(found) - 2), "fine"]
+    named = [ParkingSolution(name, *one) for name, one in zip(names, by_bearing, strict=True)]
+    return sorted(named, key=from_rods)

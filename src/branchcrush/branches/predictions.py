@@ -126,6 +126,7 @@ def predictions(grading: Grading, edges: ArrayLike) -> dict[str, Prediction]:
     surface [0.39 0.61]
     self_consistent [0.38 0.62]
     parking [0.35 0.65]
+    rods [0.42 0.58]
     """
     nothing = np.empty(0)
     shares = random_contact_shares(grading, edges)

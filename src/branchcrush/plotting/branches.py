@@ -59,7 +59,7 @@ def plot_contact_numbers(
             lw=0.8,
             label=rf"{name}, $\phi$ = {state['solid_fraction']:.3f}",
         )
-    for name in ("mean_neighbour", "self_consistent", "parking"):
+    for name in ("mean_neighbour", "self_consistent", "parking", "rods"):
         column = f"contact_number_{name}"
         if column in table:
             label, color, _ = PREDICTIONS[name]
@@ -244,6 +244,16 @@ def plot_branch_lengths(
             ms=2.5,
             color=OTHER,
             label="random parking, at jamming",
+        )
+    if "density_rods_per_m" in table:
+        look = PREDICTIONS["rods"]
+        ax.plot(
+            middle,
+            table["density_rods_per_m"] * radius_max,
+            marker=look.marker,
+            ms=2.5,
+            color=look.color,
+            label=f"{look.label}, at jamming",
         )
     for key, color in (("mean_length_1_m1", MEASURED), ("eq4_length_1_m1", MODEL)):
         ax.axvline(statistics[key] / radius_max, color=color, lw=0.8, ls=":")

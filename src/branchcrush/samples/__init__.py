@@ -13,6 +13,8 @@ needs the contacts of many seeds is given what reads those of one, and holds no 
     What is kept of the contacts of one seed for the results of who touches whom.
 `branch_lengths`, `contact_numbers`
     Branch lengths beside their predictions, and contact numbers by radius.
+`rods`
+    Coordination number and rattlers along the loading, by rods that push.
 `energy_split`
     The energy split function and its exponent, at the end and along the loading.
 `sharing`

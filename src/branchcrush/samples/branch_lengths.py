@@ -25,7 +25,8 @@ from branchcrush.samples.contact_numbers import (
     contact_number_summary,
     coordination_table,
 )
-from branchcrush.samples.ensemble import certified_loading, mean_path
+from branchcrush.samples.ensemble import certified_loading, mean_path, named_states
+from branchcrush.samples.rods import rods_along_path
 from branchcrush.samples.seed_contacts import SeedContacts, SeedReader, sample_contacts
 from branchcrush.statistics.bins import bin_edges
 from branchcrush.statistics.intervals import Resampling, pooled_interval
@@ -85,6 +86,7 @@ def branch_length_results(
     path = mean_path(paths, own_jamming.mean())
     fine = fine_edges(*grading.support())
     models = predictions(grading, fine)
+    rods = rods_along_path(grading, path)
     rows = length_prediction_rows(seeds, models, fine, path, **options)
     numbers, pairs = contact_number_rows(seeds, models, classes, path, **options)
     lengths, edges = [seed.length for seed in seeds], bin_edges(*grading.support(), bins)
@@ -93,7 +95,7 @@ def branch_length_results(
         rows,
         numbers,
         pairs,
-        coordination_table(seeds, paths, own_jamming),
+        coordination_table(seeds, paths, own_jamming).merge(rods, on="state"),
     )
     statistics = branch_statistics(
         [seed.radius for seed in seeds],
@@ -103,6 +105,8 @@ def branch_length_results(
         grading,
     )
     summary = contact_number_summary(seeds, models, rows, path, **options)
+    for where, number in named_states(path).items():
+        summary[where] |= rods.drop(columns="state").iloc[number].to_dict()
     return (
         dict(zip(_TABLES, tables, strict=True)),
         dict(zip(_RESULTS, (statistics, summary), strict=True)),

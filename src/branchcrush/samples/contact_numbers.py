@@ -11,6 +11,7 @@ from branchcrush.branches.contact_numbers import (
     contact_number_table,
     pair_table,
 )
+from branchcrush.branches.coordination_models import MODELS
 from branchcrush.branches.predictions import Prediction
 from branchcrush.samples.ensemble import named_states
 from branchcrush.samples.seed_contacts import SeedContacts
@@ -138,7 +139,8 @@ def contact_number_summary(
         seeds; near_jamming (only where there is more than one state) and end, each with the state,
         its coordination number, assortativity of radii and of their logarithms with intervals, and
         distances of the predictions; and what the models say of coordination number and rattlers
-        at the jamming point.
+        at the jamming point, with the name of the solution where a model may have more, and what
+        the next one would say.
     """
     summary: dict = {"seeds": len(seeds)}
     for where, number in named_states(path).items():
@@ -150,15 +152,31 @@ def contact_number_summary(
             {"confidence": confidence, "resamples": resamples},
         )
     summary["models"] = [
-        {
-            "name": name,
-            "coordination_number": float(model.share @ model.contacts),
-            "rattler_fraction": float(1.0 - model.share @ model.load_bearing),
-        }
+        {"name": name, **_said(model.share, model), **_solutions(name, model)}
         for name, model in models.items()
         if model.radius.size
     ]
     return summary
+
+
+def _said(share, coordination):
+    return {
+        "coordination_number": float(share @ coordination.contacts),
+        "rattler_fraction": float(1.0 - share @ coordination.load_bearing),
+    }
+
+
+def _solutions(name, model):
+    """Return which of its solutions a model gives, and what the next one would say."""
+    solve = MODELS[name].solutions
+    if solve is None:
+        return {}
+    first, *others = solve(model.radius, model.share)
+    row = {"solution": first.name}
+    for other in others[:1]:
+        said = _said(model.share, other.coordination)
+        row |= {f"other_{name}": value for name, value in said.items()}
+    return row
 
 
 def _of_state(state, sums, rows, options):

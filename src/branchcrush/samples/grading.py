@@ -4,6 +4,9 @@ from collections.abc import Mapping, Sequence
 
 from numpy.typing import ArrayLike
 
+from branchcrush.branches.load_bearing import load_bearing
+from branchcrush.branches.nodes import grading_nodes
+from branchcrush.errors import FitError
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.representativity import representativity, representativity_report
@@ -41,7 +44,8 @@ def grading_results(
     table : dict of ndarray
         From `gradings.curves.grading_table`.
     report : dict
-        From `gradings.representativity.representativity_report`, with `size_fits` where there are.
+        From `gradings.representativity.representativity_report`, with `size_fits` where there are,
+        and `rods`: which grains carry load at jamming, by rods that push.
 
     Examples
     --------
@@ -55,4 +59,19 @@ def grading_results(
     report = representativity_report(standing, grading, radii)
     if fits:
         report["size_fits"] = {key: fit.report() for key, fit in fits.items()}
+    report["rods"] = _by_rods(grading)
     return grading_table(grading, radii, ultimate), report
+
+
+def _by_rods(grading: Grading) -> dict:
+    try:
+        found = load_bearing(*grading_nodes(grading))
+    except FitError as error:
+        return {"reason": str(error)}
+    return {
+        "jamming_solid_fraction": found.solid_fraction,
+        "load_bearing_by_number": found.by_number,
+        "load_bearing_by_mass": found.by_mass,
+        "finest_load_bearing_diameter_m": 2.0 * found.finest,
+        "coordination_number": found.coordination_number,
+    }

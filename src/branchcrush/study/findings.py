@@ -139,7 +139,7 @@ def _lengths(numbers: Mapping) -> dict[str, Any]:
         for prediction in near["predictions"]:
             row[f"ks_{prediction['name']}_near"] = prediction["kolmogorov_smirnov"]
     for prediction in numbers["end"]["predictions"]:
-        if prediction["name"] in ("random_contact", "parking", "configuration"):
+        if prediction["name"] in ("random_contact", "parking", "rods", "configuration"):
             row[f"ks_{prediction['name']}_end"] = prediction["kolmogorov_smirnov"]
     return row | Interval.read(numbers["end"], "assortativity_of_radii").named(
         "assortativity_of_radii"
@@ -152,7 +152,15 @@ def _coordination(numbers: Mapping) -> dict[str, Any]:
         near = numbers["near_jamming"]
         row["coordination_number_near"] = near["coordination_number"]
         row["rattler_fraction_near"] = near["rattler_fraction"]
-    return {**row, "coordination_number_end": numbers["end"]["coordination_number"]}
+    row["coordination_number_end"] = numbers["end"]["coordination_number"]
+    for name in ("coordination_number", "rattler_fraction"):
+        for where, place in (("near_jamming", "near"), ("end", "end")):
+            if f"rods_{name}" in numbers.get(where, {}):
+                row[f"rods_{name}_{place}"] = numbers[where][f"rods_{name}"]
+    for model in numbers["models"]:
+        if model["name"] == "parking":
+            row |= {f"parking_{name}": value for name, value in model.items() if name != "name"}
+    return row
 
 
 def _jamming_law(states: Any, intervals: Mapping[str, Any]) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.packings.geometry import UNIT_SPHERE
+from branchcrush.study.preview_rods import Carrying, carrying
 
 # Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
 # to strains and to stresses: a stress is sought among packings at rest. A packing may need half or
@@ -67,6 +68,7 @@ class Plan(NamedTuple):
     seconds: float  # of one core, all seeds and refined ones together; nan if no trial was possible
     memory: float  # of one job [bytes]
     fits: Mapping[str, SizeFit]  # curves through a few sizes, by key
+    carrying: Carrying | None  # which grains will carry load
     warnings: list[str]
 
     @property
@@ -157,6 +159,7 @@ def sample_plan(
         seconds=packings * evaluations * grains * seconds_per_grain,
         memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
         fits=fits or {},
+        carrying=carrying(sample),
         warnings=[
             *_few_grains(sample, standing, (*unit, size), refused),
             *_overlaps(overlap),

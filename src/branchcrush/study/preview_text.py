@@ -5,6 +5,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from branchcrush.study.preview import PERCENTS, Plan
+from branchcrush.study.preview_rods import carrying_words
 
 # Of this machine, measured on two cores [s]: Snakemake's own start, the imports of each job, and
 # the figures of a sample.
@@ -47,6 +48,7 @@ def preview_text(
             *_sizes(plan),
             *_line("coarse grains", _coarse(plan)),
             *(line for fit in _fits(plan) for line in _line("curve", fit)),
+            *_line("load", carrying_words(plan.carrying, *plan.unit)),
             *_line("box", _box(plan)),
             *_line("loading", _loading(plan)),
             *_line("time", _time(plan, seconds, cores, notes.get(name))),

@@ -7,6 +7,7 @@ from branchcrush.branches.affine import affine_modulus
 from branchcrush.branches.coordination import Coordination
 from branchcrush.branches.load_bearing import (
     compressed_coordination,
+    load_bearing,
     rod_contacts,
     rod_coordination,
 )
@@ -85,6 +86,28 @@ def test_compressed_by_the_jamming_law():
     assert phi == pytest.approx(start / 0.95)
     law = 6.0 + 7.8 * np.sqrt(phi - start)
     assert pressed.contacts / pressed.load_bearing == pytest.approx(law)
+
+
+@pytest.mark.parametrize(
+    ("grading", "jamming", "by_number", "finest"),
+    [(MIXED[0.0], 0.65149, 0.95, 1.0e-3), (MIXED[1 / 4], 0.72079, 0.23, None)],
+)
+def test_who_carries_load_by_another_program(grading, jamming, by_number, finest):
+    found = load_bearing(*grading_nodes(grading))
+    assert found.solid_fraction == pytest.approx(jamming, abs=1e-4)
+    assert found.by_number == pytest.approx(by_number, abs=0.02)
+    assert found.coordination_number == pytest.approx(6.0 * found.by_number)
+    # The grains that carry load have most of the mass.
+    assert found.by_number < found.by_mass <= 1.0
+    if finest is not None:
+        assert 2.0 * found.finest == pytest.approx(finest, rel=0.01)
+
+
+def test_fines_in_the_pores_carry_nothing():
+    grading = mixture([uniform(0.5e-3, 0.6e-3), uniform(0.085e-3, 0.1e-3)], [0.85, 0.15], "mass")
+    found = load_bearing(*grading_nodes(grading))
+    assert 2.0 * found.finest == pytest.approx(1.0e-3, rel=0.01)
+    assert found.by_mass == pytest.approx(0.85 * 0.95, abs=0.02)
 
 
 @pytest.mark.parametrize("strain", [-0.01, 0.4, 1.0])

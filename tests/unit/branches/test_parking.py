@@ -1,13 +1,21 @@
 """Random parking, with binomials summed up by another library."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 from scipy.stats import binom
 
-from branchcrush.branches.parking import parking_contacts
+from branchcrush.branches.affine import affine_modulus
+from branchcrush.branches.nodes import grading_nodes
+from branchcrush.branches.parking import parking_contacts, parking_solutions
 from branchcrush.errors import FitError
+from branchcrush.gradings.forms import fractal, uniform
+from branchcrush.gradings.mixtures import mixture
+from branchcrush.gradings.rods import rod_map
+from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from tests.unit.branches.model_gradings import NODES, any_nodes, mean_angle
 
 SPHERE = 4.0 * np.pi
@@ -79,11 +87,82 @@ def test_huge_grains_among_fines_carry_all_the_load_or_hardly_change_it(ratio, s
     radius, share = np.array([1.0, ratio]), np.array([ratio**2, surface])
     contacts, bearing = parking_contacts(radius, share / share.sum())
     single, held = parking_contacts(np.ones(1), np.ones(1))
-    coarse_alone = surface > 1.0
+    # Fines that fit into the pores of the coarse: 0.64 of what is left of 0.64.
+    fines = 1.0 / (1.0 + surface * ratio)
+    coarse_alone = fines < 0.64 * 0.36 / (0.64 + 0.64 * 0.36)
     # Without neighbours of the other size each is a packing of equal spheres.
-    assert contacts[int(coarse_alone)] == pytest.approx(single[0], rel=1e-3)
+    assert contacts[int(coarse_alone)] == pytest.approx(single[0], rel=2e-3)
     assert bearing[int(coarse_alone)] == pytest.approx(held[0], rel=5e-3)
     if coarse_alone:
         assert contacts[0] < 1e-9
     else:
         assert contacts[1] > 1e3
+
+
+# --- solutions, and which ------------------------------------------------------------------------
+
+LINEAR, HERTZ = LinearContact(1e6), HertzContact(1e9)
+PARTS = {
+    "crushed": (uniform(0.5e-3, 1.0e-3, "number"), fractal(0.1e-3, 1.0e-3, 2.6)),
+    "gap-graded": (uniform(0.5e-3, 0.6e-3, "number"), uniform(0.085e-3, 0.1e-3, "number")),
+}
+
+
+@cache
+def solved(name, share):
+    """Return the nodes of a mixture by mass, its solid fraction at jamming, and its solutions."""
+    shares = [1.0 - share, share]
+    kept = [(part, weight) for part, weight in zip(PARTS[name], shares, strict=True) if weight]
+    radius, number = grading_nodes(mixture(*zip(*kept, strict=True), "mass"))
+    phi = rod_map(radius, number).solid_fraction
+    return radius, number, phi, parking_solutions(radius, number)
+
+
+def stiffness(name, share, law):
+    """Return H of each solution of a mixture by its name, the chosen one first."""
+    radius, number, phi, solutions = solved(name, share)
+    return {
+        solution.name: affine_modulus(radius, number, solution.coordination, phi, law)
+        for solution in solutions
+    }
+
+
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        (LINEAR, [1.062, 1.196, 3.631, 4.063, 4.514, 4.712]),
+        (HERTZ, [1.017, 1.063, 1.965, 2.006, 1.922, 1.756]),
+    ],
+)
+def test_stiffness_of_mixtures_by_another_program(law, expected):
+    first = stiffness("crushed", 0.0, law)["only"]
+    found = [
+        stiffness("crushed", share, law)["only"] / first
+        for share in (1 / 8, 1 / 4, 3 / 8, 1 / 2, 3 / 4, 1.0)
+    ]
+    assert_allclose(found, expected, atol=6e-4)
+
+
+@pytest.mark.parametrize(
+    ("parts", "share", "coarse", "fine", "chosen"),
+    [
+        ("crushed", 0.27, None, None, "coarse"),
+        ("crushed", 0.30, 1.33, 3.16, "coarse"),
+        ("crushed", 0.32, None, None, "coarse"),
+        ("gap-graded", 0.15, 1.00, 4.98, "coarse"),
+        ("gap-graded", 0.25, 0.93, 6.17, "fine"),
+        ("gap-graded", 0.30, 0.86, 6.42, "fine"),
+    ],
+)
+def test_two_solutions_and_the_one_that_rods_choose(parts, share, coarse, fine, chosen):
+    found = stiffness(parts, share, LINEAR)
+    assert set(found) == {"coarse", "fine"}
+    assert next(iter(found)) == chosen
+    if coarse is not None:
+        first = stiffness(parts, 0.0, LINEAR)["only"]
+        expected = {"coarse": coarse, "fine": fine}
+        assert {name: H / first for name, H in found.items()} == pytest.approx(expected, abs=6e-3)
+
+
+def test_one_fine_solution_beyond_the_window():
+    assert list(stiffness("crushed", 0.34, LINEAR)) == ["only"]

@@ -257,3 +257,4 @@ def test_every_prediction_has_a_look_of_its_own():
     for part in ("label", "color", "marker"):
         assert len({getattr(look, part) for look in PREDICTIONS.values()}) == len(PREDICTIONS)
     assert PREDICTIONS["parking"] == ("random parking", "#3a7d44", "o")
+    assert PREDICTIONS["rods"] == ("rods that push", "#14a0bd", "X")

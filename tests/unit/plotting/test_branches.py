@@ -27,6 +27,7 @@ def numbers(states=(4, 7), low=0.5):
             "contact_number_mean_neighbour": 2.0,
             "contact_number_self_consistent": 3.0,
             "contact_number_parking": 4.0 * contacts,
+            "contact_number_rods": 5.0 * contacts,
         }
         for state, scale in zip(states, (1.0, 10.0), strict=False)
         for radius, contacts in ((1e-3, 1.0), (2e-3, 3.0))
@@ -57,6 +58,7 @@ def test_contact_numbers_stand_at_their_radii_in_the_colour_of_their_state(shown
 def test_models_are_lines_of_their_own_columns(shown):
     ax = branches.plot_contact_numbers(numbers(), SUMMARY, LARGEST)
     assert_allclose(shown.line(ax, "random parking"), [[0.5, 1.0], [4.0, 12.0]])
+    assert_allclose(shown.line(ax, "rods that push"), [[0.5, 1.0], [5.0, 15.0]])
     assert_allclose(shown.line(ax, "solid angle, mean neighbour")[1], 2.0)
     assert_allclose(shown.line(ax, "self-consistent, rattler cut")[1], 3.0)
 
@@ -178,6 +180,7 @@ def test_branch_lengths_are_bars_of_densities_over_the_largest_radius(shown):
             "density_measured_standard_error_per_m": [10.0, 20.0],
             "density_random_contact_per_m": [200.0, 300.0],
             "density_parking_per_m": [150.0, 350.0],
+            "density_rods_per_m": [250.0, 250.0],
         }
     )
     means = {"mean_length_1_m1": 2.5e-3, "eq4_length_1_m1": 2.2e-3}
@@ -189,6 +192,7 @@ def test_branch_lengths_are_bars_of_densities_over_the_largest_radius(shown):
     assert_allclose(shown.bars(errors), [[0.18, 0.76], [0.22, 0.84]])
     assert_allclose(shown.line(ax, "Eq. 4: any two grains touch alike"), [[0.5, 1.5], [0.4, 0.6]])
     assert_allclose(shown.line(ax, "random parking, at jamming")[1], [0.3, 0.7])
+    assert_allclose(shown.line(ax, "rods that push, at jamming")[1], [0.5, 0.5])
     dotted = [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx([1.25, 1.1])
     assert ax.get_xlim() == (0.0, 2.0)

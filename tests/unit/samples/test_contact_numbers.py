@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from branchcrush.branches.predictions import fine_edges, predictions
-from branchcrush.gradings.mixtures import from_radii, single
+from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.samples.branch_lengths import length_prediction_rows
 from branchcrush.samples.contact_numbers import (
     contact_number_rows,
@@ -121,6 +121,24 @@ def test_summary_says_what_the_rows_say_of_the_first_and_the_last_state(growing,
         "rattler_fraction": pytest.approx(0.0, abs=1e-12),
     }
     assert 0.3 < said["parking"]["rattler_fraction"] < 0.6
+    assert said["parking"]["solution"] == "only"
+    assert "solution" not in said["rods"]
+
+
+def test_two_solutions_of_random_parking_are_told(growing):
+    # A fifth of the mass six times finer.
+    grading = mixture([single(6.0), single(1.0)], [0.8, 0.2], "mass")
+    _, kept, _ = growing
+    models = predictions(grading, fine_edges(1.0, 6.0))
+    rows = length_prediction_rows(kept, models, EDGES, path_of(), **MEASURED)
+    summary = contact_number_summary(kept, models, rows, path_of(), **MEASURED)
+    (parking,) = (model for model in summary["models"] if model["name"] == "parking")
+    assert parking["solution"] == "coarse"
+    assert parking["rattler_fraction"] > 0.97
+    assert parking["other_rattler_fraction"] < 0.1
+    assert parking["other_coordination_number"] == pytest.approx(
+        6.0 * (1.0 - parking["other_rattler_fraction"])
+    )
 
 
 def test_one_seed_has_no_limits_and_one_state_is_the_end_and_not_near_jamming(models):

@@ -32,6 +32,18 @@ def test_box_is_that_of_the_solid_fraction_at_the_end():
     assert report["representativity"]["box_edge"] == pytest.approx(edge, rel=1e-12)
 
 
+def test_rods_tell_who_carries_load():
+    _, report = grading_results(single(1e-3), 10, 0.6, [np.ones(10)], ultimate_alpha=2.6)
+    # Of equal spheres 0.95 carry load, with six contacts each, at 0.640.
+    assert report["rods"] == {
+        "jamming_solid_fraction": pytest.approx(0.640, abs=1e-3),
+        "load_bearing_by_number": pytest.approx(0.95, abs=0.01),
+        "load_bearing_by_mass": pytest.approx(0.95, abs=0.01),
+        "finest_load_bearing_diameter_m": pytest.approx(2e-3),
+        "coordination_number": pytest.approx(5.71, abs=0.03),
+    }
+
+
 def test_single_size_has_no_ultimate_grading():
     table, _ = grading_results(single(1.0), 10, 0.6, [np.ones(10)], ultimate_alpha=2.6)
     assert not [name for name in table if "ultimate" in name]

@@ -97,15 +97,27 @@ def fit(n=(3.0, 2.9, 3.1), seeds=3):
 def touching(distance, shift=0.0):
     """Contact numbers of a state: distances of the predictions, and all else shifted."""
     ks = {"parking": distance, "random_contact": 0.4 - shift, "configuration": 0.01 + shift}
-    ks["surface"] = 0.2 + shift
+    ks |= {"surface": 0.2 + shift, "rods": 0.07 + shift}
     return {
         "solid_fraction_above_jamming": 0.15 - shift,
         "mean_length_m": 1.5e-3 + shift,
         "coordination_number": 6.5 - shift,
         "rattler_fraction": 0.1 + shift,
+        "rods_coordination_number": 6.2 - shift,
+        "rods_rattler_fraction": 0.12 + shift,
         "predictions": [{"name": name, "kolmogorov_smirnov": value} for name, value in ks.items()],
         **named("assortativity_of_radii", -0.1 + shift),
     }
+
+
+def models(solutions):
+    """What models say at the jamming point, random parking in so many solutions."""
+    parking = {"name": "parking", "coordination_number": 5.4, "rattler_fraction": 0.2}
+    parking["solution"] = "only" if solutions == 1 else "coarse"
+    if solutions == 2:
+        parking |= {"other_coordination_number": 5.8, "other_rattler_fraction": 0.04}
+    rods = {"name": "rods", "coordination_number": 5.6, "rattler_fraction": 0.15}
+    return [parking, rods]
 
 
 def shared(claim="no such grain", branch_claim="no such branch", shift=0.0):
@@ -177,6 +189,7 @@ def sample():
         *,
         n=(3.0, 2.9, 3.1),
         parking=0.03,
+        solutions=1,
         exponents=None,
         verdict="certified",
         **claims,
@@ -187,7 +200,11 @@ def sample():
             kind=SampleKind("walls", "hertz", {"form": "single"}),
             fit=fit(n),
             # The two states give different answers: 0.3 is bad.
-            numbers={"near_jamming": touching(parking, 0.05), "end": touching(parking + 0.3)},
+            numbers={
+                "near_jamming": touching(parking, 0.05),
+                "end": touching(parking + 0.3),
+                "models": models(solutions),
+            },
             shared={"near_jamming": shared(shift=0.3), "end": shared(**claims)},
             certificate={"verdict": verdict, "reasons": reasons},
             path=path_of() if exponents is None else path_of(exponents),
@@ -206,7 +223,7 @@ def one_state(sample):
         return replace(
             whole,
             fit=replace(whole.fit, near_jamming=None),
-            numbers={"end": whole.numbers["end"]},
+            numbers={name: whole.numbers[name] for name in ("end", "models")},
             shared={"end": whole.shared["end"]},
         )
 

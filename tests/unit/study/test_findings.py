@@ -82,6 +82,8 @@ def test_lengths_and_contacts_are_of_the_state_their_column_says(sample):
         "ks_random_contact_near": 0.35,
         "ks_configuration_near": 0.06,
         "ks_surface_near": 0.25,
+        "ks_rods_near": 0.12,
+        "ks_rods_end": 0.07,
         "ks_parking_end": 0.33,
         "ks_random_contact_end": 0.4,
         "ks_configuration_end": 0.01,
@@ -91,10 +93,24 @@ def test_lengths_and_contacts_are_of_the_state_their_column_says(sample):
         "coordination_number_near": 6.45,
         "rattler_fraction_near": 0.15,
         "coordination_number_end": 6.5,
+        "rods_coordination_number_near": 6.15,
+        "rods_coordination_number_end": 6.2,
+        "rods_rattler_fraction_near": 0.17,
+        "parking_coordination_number": 5.4,
+        "parking_rattler_fraction": 0.2,
     }
     for name, value in expected.items():
         assert row[name] == pytest.approx(value), name
     assert "ks_surface_end" not in row
+    assert row["parking_solution"] == "only"
+    assert "parking_other_coordination_number" not in row
+
+
+def test_a_second_solution_of_random_parking_is_told(sample):
+    row = row_of(sample(solutions=2))
+    assert row["parking_solution"] == "coarse"
+    assert row["parking_other_coordination_number"] == 5.8
+    assert row["parking_other_rattler_fraction"] == 0.04
 
 
 def test_jamming_law_is_about_the_isostatic_number_of_each_state(sample):

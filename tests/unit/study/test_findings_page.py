@@ -91,7 +91,8 @@ def test_claims_are_counted_by_their_answers(page, sample):
 
 def test_bad_lengths_are_named(page, sample):
     text = page(sample("good"), sample("bad", parking=0.1))
-    assert "measured ones in 1 of 2 certified samples (not in bad)." in text
+    assert "measured ones in 1 of 2 certified samples (not in bad). By rods that push" in text
+    assert "which have none either, they are in none of 2." in text
 
 
 def test_what_is_not_certified_is_shown_named_and_not_counted(page, sample):
@@ -127,6 +128,13 @@ def test_without_a_certified_sample_nothing_is_counted(page, sample):
     assert "where no certified sample has a state" in text
     assert "bad (not certified) 3" in text
     assert not re.search(r"\bin 0\b|\b0 of [0-9]|in none of", text)
+
+
+def test_a_second_solution_of_random_parking_is_named(page, sample):
+    text = page(sample("sand"), sample("gap", solutions=2))
+    assert "Of gap random parking has two solutions; the coarse one is shown" in text
+    assert "The other has κ = 5.80 and 0.04 rattlers." in text
+    assert "Of sand random" not in text
 
 
 def test_a_study_without_any_number_says_why():

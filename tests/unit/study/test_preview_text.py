@@ -63,6 +63,29 @@ def test_text_holds_what_a_person_asks_before_a_run():
         assert part in text
 
 
+@pytest.mark.parametrize(
+    ("sample", "expected"),
+    [
+        # Equal spheres of 2 mm: 0.95 carry load, at 0.640.
+        (
+            {},
+            "finest that do are 2 mm in diameter; they jam at a solid fraction of 0.640 with 5.7",
+        ),
+        ({}, "all this of a periodic cell: between walls they jam looser"),
+        # 0.741 at the end: kappa* = 6 + 7.8 sqrt(0.101) = 8.48, and 0.97 of the grains carry load.
+        ({"boundary": "periodic"}, "8.2 at the end of the loading (rods that push)"),
+        (
+            {"boundary": "periodic", "loading": Loading("edge_reduction", 0.3)},
+            "the loading ends before that, perhaps without load",
+        ),
+    ],
+)
+def test_text_says_which_grains_will_carry_load(sample, expected):
+    text = words(written(plan_of(**sample)))
+    assert "of your grains 95 % will carry load (by mass 95 %)" in text
+    assert expected in text
+
+
 def test_a_sample_takes_no_more_than_25_lines_of_96_characters():
     lines = written(plan_of(grading=uniform(2e-4, 1e-3), ultimate=uniform(1e-4, 1e-3))).splitlines()
     assert len(lines) <= 25

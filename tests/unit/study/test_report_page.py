@@ -127,6 +127,14 @@ def fit(sample):
     return replace(whole, end=replace(whole.end, predictors=predictors))
 
 
+RODS = {
+    "jamming_solid_fraction": 0.7208,
+    "load_bearing_by_number": 0.23,
+    "load_bearing_by_mass": 0.91,
+    "finest_load_bearing_diameter_m": 3.2e-4,
+}
+
+
 @pytest.fixture
 def page(tmp_path, fit):
     """Return a function that renders samples and returns the page without its images."""
@@ -143,7 +151,12 @@ def page(tmp_path, fit):
             "model": MODEL,
             "statistics": STATISTICS,
             "certificate": certificate,
-            "grading": {"target": GRADING, "realised": GRADING, "representativity": STANDING},
+            "grading": {
+                "target": GRADING,
+                "realised": GRADING,
+                "representativity": STANDING,
+                "rods": RODS,
+            },
             "figures": dict.fromkeys(FIGURES, image),
             "forms": FORMS,
         }
@@ -422,3 +435,10 @@ def test_a_limit_of_elastic_strain_is_told_with_its_numbers(page):
     limit = {"resistance": "elastic_strain", "elastic_strain": 0.0125, "strength_exponent": 0.5}
     html = page({"model": {**MODEL, **limit}})
     assert "begins at 1.25 %" in html and "(strength exponent 0.5)" in html
+
+
+def test_page_tells_which_grains_carry_load_by_rods(page):
+    html = page({})
+    assert "0.721" in html and "<td>23, 91</td>" in html and "<td>0.32</td>" in html
+    nothing = {"target": GRADING, "realised": GRADING, "representativity": STANDING}
+    assert "by rods that push" not in page({"grading": nothing | {"rods": {"reason": "none"}}})
