@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from branchcrush.config.schema import REFINED
 from branchcrush.config.gradings import grading_data_files
+from branchcrush.config.names import REFINED
 from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
 

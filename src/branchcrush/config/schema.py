@@ -1,6 +1,5 @@
 """The configuration: its keys, types, units, defaults and checks."""
 
-import re
 from typing import Annotated, Any, Literal
 
 from pydantic import (
@@ -27,7 +26,9 @@ from branchcrush.config.fields import (
     refusal,
 )
 from branchcrush.config.gradings import GradingSection
+from branchcrush.config.measured import Measured
 from branchcrush.config.messages import problem
+from branchcrush.config.names import NAMES_SCHEMA, SampleName
 from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
@@ -36,31 +37,12 @@ from branchcrush.loading.targets import (
     strain_step,
 )
 
-# Ends the name of a sample run with twice the strain steps, to judge its convergence.
-REFINED = "-refined"
 _MOST_SEEDS = 1000
 _GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _SEEDS_SCHEMA = WithJsonSchema(
     number_or_list(_SEEDS, Number(least=0, most=2**32 - 1, whole=True), _MOST_SEEDS)
 )
-_LONGEST_NAME = 100
-_NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
-# Files and folders of results that no sample may be called.
-_TAKEN = (
-    "figures",
-    "findings",
-    "made",
-    "comparison.csv",
-    "coordination.csv",
-    "datapackage.json",
-    "exponents.csv",
-    "findings.csv",
-    "findings.html",
-    "report.html",
-    "preview.txt",
-)
-
 
 # In a schema: a list of grains has a number of them.
 _A_LIST = {"properties": {"grading": {"properties": {"form": {"const": "radii"}}}}}
@@ -209,31 +191,6 @@ def _is_list_of_grains(sample):
     return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
-def _usable_name(name):
-    """Return the name of a sample, or refuse one that no folder can have."""
-    if not isinstance(name, str):
-        raise refusal("a name must be text: put it in quotes")
-    if not re.fullmatch(_NAME, name):
-        raise refusal(
-            f"a name must be 1 to {_LONGEST_NAME} letters, digits, '.', '_' and '-', and begin "
-            "with a letter or digit: it names a folder"
-        )
-    if name.endswith(REFINED):
-        raise refusal(f"a name must not end in {REFINED}, kept for the convergence of the others")
-    if name in _TAKEN:
-        raise refusal(f"a name must not be {name}, which results has for all samples")
-    return name
-
-
-SampleName = Annotated[str, BeforeValidator(_usable_name)]
-
-
-_NAMES_SCHEMA = {
-    "pattern": f"^{_NAME}$",
-    "not": {"anyOf": [{"pattern": f"{REFINED}$"}, {"enum": list(_TAKEN)}]},
-}
-
-
 def _not_empty(samples):
     if not samples:
         raise refusal("must hold at least one sample")
@@ -247,12 +204,18 @@ class Config(Section):
 
     samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)] = Field(
         description="One or more samples by names of your own; results go to results/<name>.",
-        json_schema_extra={"minProperties": 1, "propertyNames": _NAMES_SCHEMA},
+        json_schema_extra={"minProperties": 1, "propertyNames": NAMES_SCHEMA},
     )
     energy_split: EnergySplit = Field(
         EnergySplit(), description="How the energy split is binned, and the intervals found."
     )
     thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
+    measured: dict[SampleName, Measured] = Field(
+        {},
+        description="Materials that a laboratory measured, by names of your own; results go to "
+        "results/measured/<name>.",
+        json_schema_extra={"propertyNames": NAMES_SCHEMA},
+    )
     figures: Figures = Field(Figures(), description="What the figures look like.")
     keep_dumps: Literal["all", "last", "none"] = Field(
         "all",
