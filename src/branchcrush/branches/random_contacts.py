@@ -88,12 +88,14 @@ def _shares_of_single_radii(radii: NDArray, shares: NDArray, edges: NDArray) -> 
     return np.diff(below)
 
 
-def random_contact_moment(grading: Grading, order: float) -> float:
+def random_contact_moment(
+    grading: Grading, order: float, neighbours: Grading | None = None
+) -> float:
     r"""Return the moment of branch length if every two grains were as likely to touch.
 
-    .. math:: \langle l^n \rangle = \int\!\!\int (R + R')^n P(R) P(R')\, dR\, dR'
+    .. math:: \langle l^n \rangle = \int\!\!\int (R + R')^n P(R) P'(R')\, dR\, dR'
 
-    For whole n it is 2<R>, 2<R^2> + 2<R>^2, 2<R^3> + 6<R><R^2>, ...
+    For whole n and P' = P it is 2<R>, 2<R^2> + 2<R>^2, 2<R^3> + 6<R><R^2>, ...
 
     Parameters
     ----------
@@ -101,6 +103,8 @@ def random_contact_moment(grading: Grading, order: float) -> float:
         P, by number.
     order : float
         n [-].
+    neighbours : Grading, optional
+        P', by number, of the grain at the other end; P if left out.
 
     Returns
     -------
@@ -118,7 +122,8 @@ def random_contact_moment(grading: Grading, order: float) -> float:
     Paper, Eqs. 4 to 6.
     """
     radius, weight = _few(*grading.quadrature())
-    return float(weight @ (radius[:, None] + radius) ** order @ weight)
+    other, its_weight = (radius, weight) if neighbours is None else _few(*neighbours.quadrature())
+    return float(weight @ (radius[:, None] + other) ** order @ its_weight)
 
 
 def _few(radius: NDArray, weight: NDArray) -> tuple[NDArray, NDArray]:

@@ -106,6 +106,62 @@ class PorosityCurve:
 
 
 @dataclass(frozen=True)
+class PairCurve:
+    r"""Energy of pairs, per volume, in a mixture by mass of an initial and an ultimate grading.
+
+    .. math:: \frac{(1-C)^2 + 2 (1-C) C x y + C^2 x^2 z}{1 - C + C x}
+
+    Whatever all pairs have, one of them from either grading: the cross term is what a mixture of
+    the two branch length densities, Eq. 7 of the paper, leaves out.
+
+    Parameters
+    ----------
+    ends : float
+        x, contact ends per mass of the ultimate grading over those of the initial one [-].
+    cross, ultimate : float
+        y and z, the mean energy of a pair with one grain and with both of the ultimate grading,
+        over that of a pair of the initial one [-].
+
+    Examples
+    --------
+    One grading on both sides changes nothing.
+
+    >>> round(float(PairCurve(1.0, 1.0, 1.0).value(0.3)), 12)
+    1.0
+    >>> curve = PairCurve(ends=2.0, cross=0.5, ultimate=0.25)
+    >>> float(curve.value(1.0)), float(curve.value(0.5))
+    (0.5, 0.6666666666666666)
+    """
+
+    ends: float
+    cross: float
+    ultimate: float
+
+    def value(self, crushing: ArrayLike) -> NDArray:
+        """Return the energy at C over that at C = 0."""
+        intact, crushed = np.subtract(1.0, crushing), np.multiply(self.ends, crushing)
+        return self._pairs(intact, crushed) / (intact + crushed)
+
+    def log_slope(self, crushing: ArrayLike) -> NDArray:
+        """Return the slope of its logarithm."""
+        intact, crushed = np.subtract(1.0, crushing), np.multiply(self.ends, crushing)
+        pairs_slope = 2.0 * (
+            -intact
+            + self.cross * (self.ends * intact - crushed)
+            + self.ultimate * self.ends * crushed
+        )
+        return pairs_slope / self._pairs(intact, crushed) - (self.ends - 1.0) / (intact + crushed)
+
+    def _pairs(self, intact: NDArray, crushed: NDArray) -> NDArray:
+        return intact**2 + 2.0 * self.cross * intact * crushed + self.ultimate * crushed**2
+
+    @property
+    def knots(self) -> NDArray:
+        """The ends."""
+        return np.array([0.0, 1.0])
+
+
+@dataclass(frozen=True)
 class TabulatedCurve:
     """A function that is known at some C, from gradings or measured.
 

@@ -1,5 +1,7 @@
 """Eq. 4 against closed forms, quadrature and sampling."""
 
+from math import comb
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -59,6 +61,42 @@ def test_moment_of_any_order_is_that_of_the_density(grading, order):
     length, weight, _ = length_nodes(grading)
     expected = weight @ (density_of_lengths(grading, length) * length**order)
     assert_allclose(random_contact_moment(grading, order), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("order", [0.5, 2.0, 3.131])
+@pytest.mark.parametrize("ratio", [2, 200, 1000])
+def test_moment_of_any_order_of_the_uniform_grading_in_closed_form(ratio, order):
+    low, high = RADIUS_MAX / ratio, RADIUS_MAX
+    ends = (2 * high) ** (order + 2) - 2 * (low + high) ** (order + 2) + (2 * low) ** (order + 2)
+    expected = ends / ((order + 1) * (order + 2) * (high - low) ** 2)
+    assert_allclose(random_contact_moment(uniform(low, high), order), expected, rtol=1e-10)
+
+
+@pytest.mark.parametrize("ratio", [2, 200, 1000])
+def test_moment_of_pairs_of_two_gradings(ratio):
+    low, alpha = RADIUS_MAX / ratio, 2.6
+    flat, finer = uniform(low, RADIUS_MAX), fractal(low, RADIUS_MAX, alpha)
+
+    def of_flat(k):
+        return (RADIUS_MAX ** (k + 1) - low ** (k + 1)) / ((k + 1) * (RADIUS_MAX - low))
+
+    def of_finer(k):
+        powers = (k - alpha, -alpha)
+        above, below = ((RADIUS_MAX**power - low**power) / power for power in powers)
+        return above / below
+
+    expected = sum(comb(3, k) * of_flat(k) * of_finer(3 - k) for k in range(4))
+    assert_allclose(random_contact_moment(flat, 3.0, finer), expected, rtol=1e-10)
+    assert_allclose(random_contact_moment(finer, 3.0, flat), expected, rtol=1e-10)
+
+
+def test_moment_of_pairs_against_monte_carlo():
+    low = RADIUS_MAX / 1000
+    flat, finer = uniform(low, RADIUS_MAX), fractal(low, RADIUS_MAX, 2.6)
+    rng = np.random.default_rng(5)
+    sums = (flat.rvs(200_000, rng) + finer.rvs(200_000, rng)) ** 2.5
+    error = sums.std() / np.sqrt(sums.size)
+    assert abs(random_contact_moment(flat, 2.5, finer) - sums.mean()) < 4 * error
 
 
 @any_grading
