@@ -1,13 +1,9 @@
 """Rule measured: breakage from the gradings that a laboratory found before and after a test."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.branches.affine import affine_modulus
-from branchcrush.branches.load_bearing import rod_coordination
-from branchcrush.branches.nodes import grading_nodes
+from branchcrush.branches.mixing import mixing_path
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.breakage import (
     SILT,
@@ -18,13 +14,12 @@ from branchcrush.crushing.breakage import (
 from branchcrush.gradings.curves import particle_diameter
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.forms import fractal
-from branchcrush.gradings.rods import rod_map
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
 # n of the paper's cubic law.
 EXPONENT = 3.0
 # Their stiffness cancels in the ratio of two gradings.
-_LAWS = {"linear": LinearContact(1.0), "hertz": HertzContact(1.0, 0.0)}
+_LAWS = {"linear": LinearContact(1.0), "hertz": HertzContact(1.0)}
 # Where the paper's C says little about the state of crushing.
 _SATURATED = 0.9
 _POINTS = 300
@@ -62,7 +57,7 @@ def breakage_results(
     >>> before, after = uniform(0.5e-3, 1e-3, "mass"), uniform(0.05e-3, 1e-3, "mass")
     >>> results = breakage_results(before, after, ultimate_alpha=2.6, ultimate_smallest=0.0)
     >>> round(results["hardin_breakage"], 3), round(results["einav_breakage"], 3)
-    (0.152, 0.205)
+    (0.179, 0.244)
 
     References
     ----------
@@ -77,14 +72,14 @@ def breakage_results(
         "ultimate_largest_m": 2.0 * largest,
         "hardin_limit_m": 2.0 * SILT,
         "energy_exponent": EXPONENT,
-        **_of_gradings({"before": before, "after": after, "ultimate": ultimate}),
+        **_of_gradings(before, after, ultimate),
         "hardin_breakage": None,
         "einav_breakage": None,
         "einav_breakage_down_to_0": None,
         "crushing_parameter": None,
     }
     if after is not None:
-        if 2.0 * largest > 2.0 * SILT:
+        if largest > SILT:
             results["hardin_breakage"] = hardin_breakage(before, after)
         way = (before, after, ultimate_alpha, largest)
         results["einav_breakage"] = einav_breakage(*way, ultimate_smallest)
@@ -93,7 +88,7 @@ def breakage_results(
         # Of a fractal grading down to nothing all grains, by number, are fines.
         last = 0.0 if ultimate is None else random_contact_moment(ultimate, EXPONENT)
         results["crushing_parameter"] = crushing_parameter(*moments, last)
-    return {**results, "sentences": _sentences(results, after is not None)}
+    return {**results, "sentences": _sentences(results)}
 
 
 def ultimate_of(before: Grading, alpha: float, smallest: float) -> Grading | None:
@@ -153,28 +148,76 @@ def grading_curves(gradings: dict[str, Grading | None]) -> dict[str, NDArray]:
     }
 
 
-def _of_gradings(gradings: dict[str, Grading | None]) -> dict[str, float | None]:
-    """Return sizes, jamming point and stiffness of each grading, None of one that is not known."""
+def _of_gradings(
+    before: Grading, after: Grading | None, ultimate: Grading | None
+) -> dict[str, float | None]:
+    """Return sizes, jamming point and network of each grading; None of one that is not known."""
+    gradings = {"before": before, "after": after, "ultimate": ultimate}
     known: dict[str, float | None] = {}
-    moduli: dict[str, dict[str, float]] = {}
     for name, grading in gradings.items():
-        numbers = ("D10", "D50", "D_max", "jamming_solid_fraction", "stiffness")
-        d10, d50, d_max, jamming, _ = (None,) * len(numbers) if grading is None else (0.0,) * 5
+        row: list[float | None] = [None] * 5
+        ratios: list[float | None] = [None] * len(_LAWS)
         if grading is not None:
-            radius, share = grading_nodes(grading)
-            rods = rod_map(radius, share)
-            bearing = rod_coordination(radius, share, rods)
-            jamming = rods.solid_fraction
-            moduli[name] = {
-                law_name: affine_modulus(radius, share, bearing, jamming, law)
-                for law_name, law in _LAWS.items()
-            }
-            d10, d50 = (particle_diameter(grading, percent) for percent in (10.0, 50.0))
-            d_max = 2.0 * grading.support()[1]
-        known |= {f"D10_{name}_m": d10, f"D50_{name}_m": d50, f"D_max_{name}_m": d_max}
-        known[f"jamming_solid_fraction_{name}"] = jamming
-    for name in ("after", "ultimate"):
-        for law in _LAWS:
-            ratio = moduli[name][law] / moduli["before"][law] if name in moduli else None
-            known[f"stiffness_ratio_{law}_{name}"] = ratio
+            ends = np.array([0.0, 1.0])
+            paths = [mixing_path(before, grading, law, crushing=ends) for law in _LAWS.values()]
+            row = [
+                particle_diameter(grading, 50.0),
+                2.0 * grading.support()[1],
+                float(paths[0].solid_fraction[-1]),
+                float(paths[0].bearing_mass[-1]),
+                float(paths[0].finest[-1]),
+            ]
+            ratios = [float(path.modulus[-1] / path.modulus[0]) for path in paths]
+        names = (
+            f"D50_{name}_m",
+            f"D_max_{name}_m",
+            f"jamming_solid_fraction_{name}",
+            f"load_bearing_mass_{name}",
+            f"finest_load_bearing_{name}_m",
+        )
+        known |= dict(zip(names, row, strict=True))
+        if name != "before":
+            laws = [f"stiffness_ratio_{law}_{name}" for law in _LAWS]
+            known |= dict(zip(laws, ratios, strict=True))
     return known
+
+
+def _sentences(results: dict) -> list[str]:
+    """Return what the numbers do not say of themselves."""
+    said = []
+    hardin, einav = results["hardin_breakage"], results["einav_breakage"]
+    if einav is None:
+        said.append("No grading after the test is given, so there is no breakage.")
+    else:
+        if hardin is None:
+            said.append(
+                "All grains before the test are finer than 0.074 mm, below which none breaks in "
+                "Hardin's sense: there is no B_r."
+            )
+        if einav < 0.0:
+            said.append(
+                "The grading after the test is coarser than the one before, so breakage is below "
+                "0: are they exchanged?"
+            )
+        if einav > 1.0:
+            said.append(
+                "The grading after the test is finer than the ultimate one: its smallest size is "
+                "chosen too large, or alpha too small."
+            )
+        said.append(
+            f"What the smallest size of the ultimate grading is decides B: {einav:.3f} with "
+            f"{1e3 * results['ultimate_smallest_m']:.3g} mm, "
+            f"{results['einav_breakage_down_to_0']:.3f} with 0."
+        )
+        if (crushed := results["crushing_parameter"]) > max(_SATURATED, einav):
+            said.append(
+                f"C is {crushed:.4f} where B is {einav:.3f}, since its moments (Eqs. 4 and 15) "
+                "count grains by number: the few percent of the mass that became fines are nearly "
+                "all of the grains, and their branches nearly all of the branches. It is saturated "
+                "and tells little of how far crushing has come."
+            )
+    said.append(
+        "Solid fractions at jamming are those of frictionless spheres: a sand with friction and "
+        "angular grains jams looser; ratios between gradings are what carries over."
+    )
+    return said
