@@ -174,9 +174,7 @@ class Measured(Section):
         Returns
         -------
         dict
-            `ultimate_smallest_radius` is in metres, and so is no section of its own.
+            Of before, after and compression what is given; `ultimate_smallest` is a radius [m].
         """
         values = self.model_dump(exclude_none=True)
-        values["ultimate_smallest_radius"] = self.ultimate_smallest.radius
-        del values["ultimate_smallest"]
-        return values
+        return values | {"ultimate_smallest": self.ultimate_smallest.radius}

@@ -26,11 +26,13 @@ CONFIDENCE = 0.95
 # C between two knots of a form at which the compression line is looked at.
 _LOOKS = 4
 # Values at which a search may begin, of the scale and of the exponent.
-_STARTS = (9, 4)
+_STARTS = (15, 6)
 # A positive parameter that is known to less than this factor either way is not known.
 _FACTOR = 3.0
 # Nor is an exponent that is known to less than this.
 _WIDTH = 1.0
+# Two parameters pass through any two points beyond the beginning of crushing.
+FEWEST_CRUSHED = 3
 # Steps of the parameters for their derivatives: above what interpolation leaves.
 _STEP = 1e-4
 
@@ -88,7 +90,10 @@ class CompressionFit:
     line : Line
         At the pressures of the curve.
     crushed : int
-        Points on which C is above 0.
+        Points at which C is above 0.
+    locked : float or None
+        The least pressure of the curve from which on C stays at the last that is admissible [Pa].
+    resistance : Resistance
     """
 
     scale: Parameter
@@ -97,10 +102,15 @@ class CompressionFit:
     residual: float
     line: Line
     crushed: int
+    locked: float | None
+    resistance: Resistance
 
 
 def elastic_strain_family(
-    crushing: ArrayLike, contact_diameter: ArrayLike, exponent_of_strain: Callable[[float], float]
+    crushing: ArrayLike,
+    contact_diameter: ArrayLike,
+    exponent_of_strain: Callable[[float], float],
+    scales: tuple[float, float] = (1e-4, 0.4),
 ) -> Family:
     r"""Return elastic strain limits that change with the size of the grains that carry load.
 
@@ -112,6 +122,8 @@ def elastic_strain_family(
         C [-], and d_Q there [any unit].
     exponent_of_strain : callable
         x of b: 1 - b with linear contacts, -2b/3 with Hertz's.
+    scales : tuple of float
+        Between which eps_0 is looked for [-].
 
     Returns
     -------
@@ -131,7 +143,7 @@ def elastic_strain_family(
         change = TabulatedCurve(known, tuple((ratio ** exponent_of_strain(exponent)).tolist()))
         return ElasticStrainLimit(scale, change)
 
-    return Family(resistance, (1e-6, 0.4), (-2.0, 6.0))
+    return Family(resistance, scales, (-2.0, 6.0))
 
 
 def critical_energy_family(least: float, largest: float) -> Family:
@@ -147,7 +159,7 @@ def critical_energy_family(least: float, largest: float) -> Family:
     Family
         Of E_c0 [J/m3] and s [-].
     """
-    return Family(CriticalEnergy, (least, largest), (0.0, 20.0))
+    return Family(CriticalEnergy, (least, largest), (0.0, 12.0))
 
 
 def compression_line(
@@ -220,7 +232,7 @@ def fit_resistance(
     Intervals are Student's, from the Jacobian at the minimum and the scatter about it: they hold
     the scatter of the points, not what the model lacks. A scale is not determined where its
     interval reaches beyond a factor of 3, an exponent where it reaches beyond 1 either way, and
-    both when the curve ends before crushing begins.
+    both when fewer than three points are beyond the beginning of crushing.
 
     Parameters
     ----------
@@ -278,7 +290,7 @@ def fit_resistance(
         least_squares(
             residuals, starts[start], bounds=(low, high), diff_step=_STEP, x_scale=(1.0, 1.0)
         )
-        for start in np.argsort(costs)[:2]
+        for start in np.argsort(costs)[:3]
     ]
     best = min(fits, key=lambda fit: fit.cost)
     return _with_intervals(best, pressure, form, elasticity, family, low, high)
@@ -305,7 +317,10 @@ def _with_intervals(
     from scipy.stats import t  # slow to import, and few jobs need it
 
     scale, exponent = float(np.exp(best.x[0])), float(best.x[1])
-    line = compression_line(pressure, form, elasticity, family.resistance(scale, exponent))
+    resistance = family.resistance(scale, exponent)
+    line = compression_line(pressure, form, elasticity, resistance)
+    crushed = int(np.sum(line.crushing > 0.0))
+    stays = (line.crushing == line.crushing[-1]) & (line.crushing > 0.0)
     left = pressure.size - best.x.size
     variance = 2.0 * best.cost / left
     normal = best.jac.T @ best.jac
@@ -317,7 +332,7 @@ def _with_intervals(
         correlation = float(covariance[0, 1] / np.sqrt(covariance[0, 0] * covariance[1, 1]))
     else:
         error, correlation = np.array([np.inf, np.inf]), np.nan
-    clear = known and not at_end
+    clear = known and not at_end and crushed >= FEWEST_CRUSHED
     with np.errstate(over="ignore"):
         factor, width = float(np.exp(error[0])), float(error[1])
     return CompressionFit(
@@ -326,5 +341,7 @@ def _with_intervals(
         correlation=correlation,
         residual=float(np.sqrt(2.0 * best.cost / pressure.size)),
         line=line,
-        crushed=int(np.sum(line.crushing > 0.0)),
+        crushed=crushed,
+        locked=float(pressure[np.argmax(stays)]) if stays.sum() > 1 else None,
+        resistance=resistance,
     )

@@ -75,7 +75,7 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
         )
         for page in samples
     ]
-    return _environment().from_string(template).render(samples=pages, version=__version__)
+    return page_environment().from_string(template).render(samples=pages, version=__version__)
 
 
 def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:
@@ -105,7 +105,7 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     # A study of which no sample has a number has no column for it.
     records = [defaultdict(lambda: None, row) for row in known]
     return (
-        _environment()
+        page_environment()
         .from_string(template)
         .render(
             rows=records,
@@ -118,7 +118,8 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     )
 
 
-def _environment() -> Environment:
+def page_environment() -> Environment:
+    """Return what every page is rendered with: its filters, and nothing undefined passed over."""
     environment = Environment(autoescape=True, undefined=StrictUndefined)
     environment.filters |= {
         "estimate": _estimate,

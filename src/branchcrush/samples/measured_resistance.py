@@ -1,23 +1,28 @@
-"""Rule measured_compression: the resistance to crushing from a laboratory's compression curve."""
+"""Rule measured_resistance: the resistance to crushing from a laboratory's compression curve."""
 
 from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.branches.crushing_forms import crushing_forms
-from branchcrush.branches.mixing import mixing_path
+from branchcrush.branches.mixing import MixingPath, mixing_path
 from branchcrush.crushing.compression_fit import (
     CONFIDENCE,
+    FEWEST_CRUSHED,
     CompressionFit,
     Family,
+    Line,
     Parameter,
+    compression_line,
     critical_energy_family,
     elastic_strain_family,
     fit_resistance,
 )
 from branchcrush.crushing.elasticity import PowerLawElasticity
+from branchcrush.crushing.forms import ModelForm
+from branchcrush.crushing.resistance import LARGEST
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.gradings.distribution import Grading
@@ -25,8 +30,10 @@ from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
 # The form of which phi_J moves; the others say nothing of a void ratio.
 _FORM = "moving_jamming"
-# A critical energy is looked for between these shares of the largest mean stress.
-_SHARES = (1e-5, 10.0)
+# Of the fitted lines.
+_POINTS = 200
+# Crushing is taken to begin between these times the smallest and the largest mean stress.
+_BEGINS = (0.1, 2.0)
 # Names of the resistances, and of the two parameters of each.
 RESISTANCES = {
     "elastic_strain_limit": ("elastic_strain", "strength_exponent"),
@@ -36,11 +43,11 @@ _WORDS = {
     "elastic_strain": "the elastic strain at which the first grains crush",
     "strength_exponent": "the exponent with which strength falls with size",
     "critical_energy_J_per_m3": "the critical energy",
-    "hardening_exponent": "the hardening exponent",
+    "hardening_exponent": "the exponent of hardening",
 }
 
 
-def compression_results(
+def resistance_results(
     stress: ArrayLike,
     strain: ArrayLike,
     before: Grading,
@@ -50,7 +57,7 @@ def compression_results(
     lateral_stress_ratio: float,
     share_of_affine: float,
     initial_void_ratio: float | None = None,
-) -> tuple[pd.DataFrame | dict, dict]:
+) -> tuple[pd.DataFrame | dict, pd.DataFrame | dict, dict]:
     r"""Return a compression curve beside the line of the model, and the fitted resistance.
 
     .. math:: p = \frac{1 + 2 K_0}{3} \sigma_a, \qquad
@@ -77,7 +84,9 @@ def compression_results(
     Returns
     -------
     curve : DataFrame
-        As `compression.csv` holds it, or why there is none.
+        The points, as `compression.csv` holds them, or why there are none.
+    line : DataFrame
+        The fitted lines at pressures of their own, or why there are none.
     summary : dict
     """
     stress, strain = np.asarray(stress, float), np.asarray(strain, float)
@@ -90,18 +99,19 @@ def compression_results(
         elasticity = PowerLawElasticity(modulus, law.exponent)
         fits = {
             name: fit_resistance(pressure, strain, form, elasticity, family)
-            for name, family in _families(path, law, pressure.max()).items()
+            for name, family in _families(path, law, form, elasticity, pressure).items()
         }
     except FitError as error:
-        return no_data(error)
-    curve = {"stress_Pa": stress, "mean_stress_Pa": pressure, "volumetric_strain": strain}
-    if initial_void_ratio is not None:
-        curve["void_ratio"] = _void_ratio(strain, initial_void_ratio)
-    for name, fit in fits.items():
-        curve[f"volumetric_strain_{name}"] = fit.line.strain
-        if initial_void_ratio is not None:
-            curve[f"void_ratio_{name}"] = _void_ratio(fit.line.strain, initial_void_ratio)
-        curve[f"crushing_{name}"] = fit.line.crushing
+        table, why = no_data(error)
+        return table, table, why
+    at_points = {name: fit.line for name, fit in fits.items()}
+    curve = {"stress_Pa": stress} | _columns(pressure, initial_void_ratio, at_points, strain)
+    between = np.geomspace(pressure[0], pressure[-1], _POINTS)
+    lines = {
+        name: compression_line(between, form, elasticity, fit.resistance)
+        for name, fit in fits.items()
+    }
+    line = _columns(between, initial_void_ratio, lines)
     jamming = float(path.solid_fraction[0])
     summary = {
         "form": _FORM,
@@ -119,23 +129,47 @@ def compression_results(
     for name, fit in fits.items():
         summary |= _named(name, fit)
     sentences = _of_fits(fits) + _of_the_test(summary)
-    return pd.DataFrame(curve), {**summary, "sentences": sentences}
+    return pd.DataFrame(curve), pd.DataFrame(line), {**summary, "sentences": sentences}
 
 
-def _void_ratio(strain: np.ndarray, initial: float) -> np.ndarray:
-    return (1.0 + initial) * (1.0 - strain) - 1.0
+def _columns(
+    pressure: NDArray,
+    initial: float | None,
+    lines: Mapping[str, Line],
+    measured: NDArray | None = None,
+) -> dict[str, NDArray]:
+    """Return the columns of a table of points or of lines: strains, void ratios and C."""
+    strains = {} if measured is None else {"": measured}
+    strains |= {f"_{name}": line.strain for name, line in lines.items()}
+    columns = {"mean_stress_Pa": pressure}
+    for name, strain in strains.items():
+        columns[f"volumetric_strain{name}"] = strain
+        if initial is not None:
+            columns[f"void_ratio{name}"] = (1.0 + initial) * (1.0 - strain) - 1.0
+    return columns | {f"crushing_{name}": line.crushing for name, line in lines.items()}
 
 
-def _families(path, law, largest: float) -> Mapping[str, Family]:
-    """Return the resistances that may be fitted; the largest mean stress gives the scale."""
+def _families(
+    path: MixingPath,
+    law: LinearContact | HertzContact,
+    form: ModelForm,
+    elasticity: PowerLawElasticity,
+    pressure: NDArray,
+) -> Mapping[str, Family]:
+    """Return the resistances that may be fitted; the pressures tell where to look."""
+    ends = np.multiply(_BEGINS, pressure[[0, -1]])
+    strains = np.minimum(elasticity.strain_at_pressure(ends), LARGEST)
     linear = law.name == "linear"
     return {
         "elastic_strain_limit": elastic_strain_family(
             path.crushing,
             path.contact_diameter,
             (lambda b: 1.0 - b) if linear else (lambda b: -2.0 * b / 3.0),
+            tuple(strains.tolist()),
         ),
-        "critical_energy": critical_energy_family(*(share * largest for share in _SHARES)),
+        "critical_energy": critical_energy_family(
+            *form.driving_force(strains, 0.0, elasticity).tolist()
+        ),
     }
 
 
@@ -144,7 +178,9 @@ def _named(resistance: str, fit: CompressionFit) -> dict:
     named: dict = {}
     for name, parameter in zip(RESISTANCES[resistance], (fit.scale, fit.exponent), strict=True):
         stem, unit = name.removesuffix("_J_per_m3"), name[len(name.removesuffix("_J_per_m3")) :]
-        finite = [value if np.isfinite(value) else None for value in parameter[:3]]
+        # Of an interval without an end there is none.
+        finite = [value if np.isfinite(parameter).all() else None for value in parameter[:3]]
+        finite[0] = parameter.estimate
         ends = ("", "_low", "_high")
         named |= {f"{stem}{end}{unit}": value for end, value in zip(ends, finite, strict=True)}
         named[f"{stem}_determined"] = parameter.determined
@@ -163,15 +199,25 @@ def _of_fits(fits: Mapping[str, CompressionFit]) -> list[str]:
     for name, fit in fits.items():
         parameters = dict(zip(RESISTANCES[name], (fit.scale, fit.exponent), strict=True))
         unknown = [_WORDS[key] for key, one in parameters.items() if not one.determined]
-        if fit.crushed == 0:
+        called = name.replace("_", " ")
+        if fit.crushed < FEWEST_CRUSHED:
             said.append(
-                f"By the {name.replace('_', ' ')} no point of the curve is beyond the beginning of "
-                "crushing: its parameters are not determined; load further."
+                f"By the {called} {fit.crushed or 'none'} of {fit.line.crushing.size} points "
+                f"{'is' if fit.crushed < 2 else 'are'} beyond the beginning of crushing, and two "
+                "parameters pass through any two points: they are not determined. Load further, "
+                "or in smaller steps."
             )
         elif unknown:
             said.append(
-                f"The curve does not determine {' nor '.join(unknown)}: "
-                f"{_ranges(parameters)}. More points beyond the beginning of crushing would."
+                f"The curve does not determine {' nor '.join(unknown)}: {_ranges(parameters)}. "
+                "More points beyond the beginning of crushing would."
+            )
+        if fit.locked is not None:
+            said.append(
+                f"By the {called} C stays at {fit.line.crushing[-1]:.2f} from a mean stress of "
+                f"{fit.locked / 1e6:.3g} MPa on: there the mixture with the ultimate grading is "
+                "nearly as dense as it gets, and more of it would cost energy. What a sand does "
+                "beyond, making finer grains than these, the model does not know."
             )
     return said
 
