@@ -12,7 +12,8 @@ import numpy as np
 from branchcrush.branches.crushing_forms import crushing_forms
 from branchcrush.branches.mixing import mixing_path
 from branchcrush.config.build import grading_of
-from branchcrush.crushing.compression_fit import compression_line, elastic_strain_family
+from branchcrush.crushing.compression_fit import elastic_strain_family
+from branchcrush.crushing.compression_line import compression_line
 from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.gradings.forms import fractal
 from branchcrush.packings.contact_laws import contact_law

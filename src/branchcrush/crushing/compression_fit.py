@@ -11,20 +11,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from branchcrush.crushing.compression_line import (
+    InterpolatedCriticalEnergy,
+    Line,
+    compression_line,
+)
 from branchcrush.crushing.curves import TabulatedCurve
 from branchcrush.crushing.elasticity import Elasticity
 from branchcrush.crushing.forms import ModelForm
 from branchcrush.crushing.resistance import (
-    LARGEST,
-    CriticalEnergy,
     ElasticStrainLimit,
     Resistance,
 )
 from branchcrush.errors import FitError
 
 CONFIDENCE = 0.95
-# C between two knots of a form at which the compression line is looked at.
-_LOOKS = 4
 # Values at which a search may begin, of the scale and of the exponent.
 _STARTS = (15, 6)
 # A positive parameter that is known to less than this factor either way is not known.
@@ -33,6 +34,8 @@ _FACTOR = 3.0
 _WIDTH = 1.0
 # Two parameters pass through any two points beyond the beginning of crushing.
 FEWEST_CRUSHED = 3
+# Rounds in which slopes and errors are made to fit each other, and what leaves no errors.
+_ROUNDS, _SINGULAR = 4, 1e14
 # Steps of the parameters for their derivatives: above what interpolation leaves.
 _STEP = 1e-4
 
@@ -44,13 +47,6 @@ class Parameter(NamedTuple):
     low: float
     high: float
     determined: bool
-
-
-class Line(NamedTuple):
-    """Where a compression goes, each of the shape of the pressures."""
-
-    crushing: NDArray  # C [-]
-    strain: NDArray  # eps, total [-]
 
 
 @dataclass(frozen=True)
@@ -67,7 +63,7 @@ class Family:
     Examples
     --------
     >>> critical_energy_family(1e3, 1e7).resistance(1e5, 2.0)
-    CriticalEnergy(energy=100000.0, hardening=2.0)
+    InterpolatedCriticalEnergy(energy=100000.0, hardening=2.0)
     """
 
     resistance: Callable[[float, float], Resistance]
@@ -159,63 +155,7 @@ def critical_energy_family(least: float, largest: float) -> Family:
     Family
         Of E_c0 [J/m3] and s [-].
     """
-    return Family(CriticalEnergy, (least, largest), (0.0, 12.0))
-
-
-def compression_line(
-    pressure: ArrayLike, form: ModelForm, elasticity: Elasticity, resistance: Resistance
-) -> Line:
-    r"""Return how far a compression under growing pressure crushes and strains.
-
-    .. math:: p(C) = g(C)\, p_0(\epsilon_e(C)), \qquad
-        \epsilon = 1 - \frac{1 - \epsilon_e}{j(C)}
-
-    The strain counts from the jamming point before crushing. C grows no farther than where it
-    would cost elastic energy; where p(C) falls, C goes on to where it is as high again.
-    `evolution.evolve` is the exact way, of which this is an interpolation, continuous in the
-    parameters as a fit needs it.
-
-    Parameters
-    ----------
-    pressure : array_like, shape (n,)
-        Mean stress, above 0 [Pa].
-    form : ModelForm
-    elasticity : Elasticity
-    resistance : Resistance
-
-    Returns
-    -------
-    Line
-
-    Examples
-    --------
-    >>> from branchcrush.crushing.curves import LinearCurve
-    >>> from branchcrush.crushing.elasticity import PowerLawElasticity
-    >>> form = ModelForm(LinearCurve(0.0), TabulatedCurve((0.0, 1.0), (1.0, 1.25)))
-    >>> law, harder = PowerLawElasticity(1e9, 1.0), TabulatedCurve((0.0, 1.0), (1.0, 2.0))
-    >>> line = compression_line([5e6, 15e6], form, law, ElasticStrainLimit(0.01, harder))
-    >>> line.crushing.round(3).tolist(), line.strain.round(4).tolist()
-    ([0.0, 0.585], [0.005, 0.1355])
-    """
-    pressure = np.asarray(pressure, float)
-    looks = _looks(form)
-    elastic = resistance.yield_strain(looks, form, elasticity)
-    reachable = np.isfinite(elastic) & (elastic < LARGEST)
-    held = np.where(reachable, elastic, LARGEST)
-    strain = form.total_strain(held, looks)
-    costs = form.driving_force(strain, looks, elasticity) < 0.0
-    last = int(np.argmax(costs)) if costs.any() else looks.size - 1
-    yields_at = np.where(reachable, form.stress(strain, looks, elasticity), np.inf)[: last + 1]
-    # A hair that rises keeps the inverse one: along a snap C is wherever the pressure is met last.
-    risen = np.maximum.accumulate(yields_at)
-    known = np.isfinite(risen)
-    climb = np.log(np.maximum(risen[known], 1e-300)) + 1e-12 * np.arange(known.sum())
-    if not known.any():
-        crushing = np.zeros_like(pressure)
-    else:
-        crushing = np.interp(np.log(pressure), climb, looks[: last + 1][known])
-    elastic = elasticity.strain_at_pressure(pressure / form.factor.value(crushing))
-    return Line(crushing, form.total_strain(elastic, crushing))
+    return Family(InterpolatedCriticalEnergy, (least, largest), (0.0, 12.0))
 
 
 def fit_resistance(
@@ -229,10 +169,11 @@ def fit_resistance(
 
     .. math:: \min \sum_i [\epsilon(p_i) - \epsilon_i]^2
 
-    Intervals are Student's, from the Jacobian at the minimum and the scatter about it: they hold
-    the scatter of the points, not what the model lacks. A scale is not determined where its
-    interval reaches beyond a factor of 3, an exponent where it reaches beyond 1 either way, and
-    both when fewer than three points are beyond the beginning of crushing.
+    Intervals are Student's, from the Jacobian at the minimum, its slopes taken over the parameters'
+    errors, and the scatter about it: they hold the scatter of the points, not what the model lacks.
+    A scale is not determined where its interval reaches beyond a factor of 3, an exponent where it
+    reaches beyond 1 either way, and both when fewer than three points are beyond the beginning of
+    crushing.
 
     Parameters
     ----------
@@ -275,9 +216,11 @@ def fit_resistance(
     low = np.array([np.log(family.scales[0]), family.exponents[0]])
     high = np.array([np.log(family.scales[1]), family.exponents[1]])
 
+    def made(parameters: NDArray) -> Resistance:
+        return family.resistance(float(np.exp(parameters[0])), float(parameters[1]))
+
     def residuals(parameters: NDArray) -> NDArray:
-        resistance = family.resistance(float(np.exp(parameters[0])), float(parameters[1]))
-        return compression_line(pressure, form, elasticity, resistance).strain - strain
+        return compression_line(pressure, form, elasticity, made(parameters)).strain - strain
 
     scales, exponents = (
         np.linspace(least, most, many + 2)[1:-1]
@@ -293,51 +236,19 @@ def fit_resistance(
         for start in np.argsort(costs)[:3]
     ]
     best = min(fits, key=lambda fit: fit.cost)
-    return _with_intervals(best, pressure, form, elasticity, family, low, high)
-
-
-def _looks(form: ModelForm) -> NDArray:
-    """Return C at which the line is looked at: on every smooth piece of the form."""
-    knots = form.knots
-    inner = np.linspace(0.0, 1.0, _LOOKS + 1)[:-1]
-    looks = np.append((knots[:-1, None] + np.diff(knots)[:, None] * inner).ravel(), knots[-1])
-    return looks[looks < 1.0]  # at 1 a resistance may be infinite
-
-
-def _with_intervals(
-    best: Any,
-    pressure: NDArray,
-    form: ModelForm,
-    elasticity: Elasticity,
-    family: Family,
-    low: NDArray,
-    high: NDArray,
-) -> CompressionFit:
-    """Return the fit with what its Jacobian says of the parameters."""
-    from scipy.stats import t  # slow to import, and few jobs need it
-
-    scale, exponent = float(np.exp(best.x[0])), float(best.x[1])
-    resistance = family.resistance(scale, exponent)
-    line = compression_line(pressure, form, elasticity, resistance)
+    line = compression_line(pressure, form, elasticity, resistance := made(best.x))
     crushed = int(np.sum(line.crushing > 0.0))
     stays = (line.crushing == line.crushing[-1]) & (line.crushing > 0.0)
-    left = pressure.size - best.x.size
-    variance = 2.0 * best.cost / left
-    normal = best.jac.T @ best.jac
-    known = np.linalg.cond(normal) < 1e14 and bool((line.crushing > 0).any())
+    width, correlation = _half_widths(best, residuals, low, high)
     at_end = bool(np.any((best.x <= low + 1e-3) | (best.x >= high - 1e-3)))
-    if known:
-        covariance = variance * np.linalg.inv(normal)
-        error = np.sqrt(np.diag(covariance)) * t.ppf((1.0 + CONFIDENCE) / 2.0, left)
-        correlation = float(covariance[0, 1] / np.sqrt(covariance[0, 0] * covariance[1, 1]))
-    else:
-        error, correlation = np.array([np.inf, np.inf]), np.nan
-    clear = known and not at_end and crushed >= FEWEST_CRUSHED
-    with np.errstate(over="ignore"):
-        factor, width = float(np.exp(error[0])), float(error[1])
+    clear = crushed >= FEWEST_CRUSHED and not at_end
+    scale, exponent = float(np.exp(best.x[0])), float(best.x[1])
+    factor = float(np.exp(min(width[0], 700.0)))
     return CompressionFit(
         scale=Parameter(scale, scale / factor, scale * factor, clear and factor <= _FACTOR),
-        exponent=Parameter(exponent, exponent - width, exponent + width, clear and width <= _WIDTH),
+        exponent=Parameter(
+            exponent, exponent - width[1], exponent + width[1], clear and width[1] <= _WIDTH
+        ),
         correlation=correlation,
         residual=float(np.sqrt(2.0 * best.cost / pressure.size)),
         line=line,
@@ -345,3 +256,29 @@ def _with_intervals(
         locked=float(pressure[np.argmax(stays)]) if stays.sum() > 1 else None,
         resistance=resistance,
     )
+
+
+def _half_widths(
+    best: Any, residuals: Callable[[NDArray], NDArray], low: NDArray, high: NDArray
+) -> tuple[list[float], float]:
+    """Return half of each parameter's interval, and their correlation; infinite where unknown."""
+    from scipy.stats import t  # slow to import, and few jobs need it
+
+    left = best.fun.size - best.x.size
+    jacobian, covariance = best.jac, np.full((2, 2), np.inf)
+    # Where a point lies at the knee of the curve the slope there says little: slopes over the
+    # parameters' own errors do, which they change.
+    for _ in range(_ROUNDS):
+        normal = jacobian.T @ jacobian
+        if not np.linalg.cond(normal) < _SINGULAR:
+            return [np.inf, np.inf], np.nan
+        covariance = 2.0 * best.cost / left * np.linalg.inv(normal)
+        steps = np.maximum(np.sqrt(np.diag(covariance)), _STEP)
+        columns = []
+        for step in np.diag(steps):
+            ends = np.clip([best.x - step, best.x + step], low, high)
+            columns.append((residuals(ends[1]) - residuals(ends[0])) / (ends[1] - ends[0]).max())
+        jacobian = np.transpose(columns)
+    error = np.sqrt(np.diag(covariance))
+    quantile = float(t.ppf((1.0 + CONFIDENCE) / 2.0, left))
+    return (quantile * error).tolist(), float(covariance[0, 1] / error.prod())

@@ -13,13 +13,12 @@ from branchcrush.crushing.compression_fit import (
     FEWEST_CRUSHED,
     CompressionFit,
     Family,
-    Line,
     Parameter,
-    compression_line,
     critical_energy_family,
     elastic_strain_family,
     fit_resistance,
 )
+from branchcrush.crushing.compression_line import Line, compression_line
 from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.crushing.forms import ModelForm
 from branchcrush.crushing.resistance import LARGEST
