@@ -15,6 +15,7 @@ rule all:
         "results/datapackage.json",
         "results/report.html",
         "results/findings.html",
+        ["results/measured.html"] if SETTINGS.measured else [],
 
 
 include: "workflow/rules/out_of_date.smk"
@@ -28,6 +29,7 @@ include: "workflow/rules/energy_split.smk"
 include: "workflow/rules/sharing.smk"
 include: "workflow/rules/thermodynamics.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/measured.smk"
 include: "workflow/rules/preview.smk"
 
 

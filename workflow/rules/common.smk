@@ -16,6 +16,8 @@ REFINED_SAMPLES = {
     for name, sample in SETTINGS.samples.items()
     if sample.refined_seeds
 }
+# What a laboratory measured, by name of the material.
+MEASURED = {name: material.settings() for name, material in SETTINGS.measured.items()}
 # Of every interval from resampling seeds.
 INTERVALS = {key: getattr(SETTINGS.energy_split, key) for key in ("confidence", "resamples")}
 
@@ -23,6 +25,7 @@ INTERVALS = {key: getattr(SETTINGS.energy_split, key) for key in ("confidence", 
 wildcard_constraints:
     sample="|".join(map(re.escape, [*SAMPLES, *REFINED_SAMPLES])),
     seed=r"\d+",
+    material="|".join(map(re.escape, MEASURED)) or "none",
 
 
 def settings_of(wildcards):

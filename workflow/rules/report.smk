@@ -114,6 +114,7 @@ rule comparison:
         samples=SAMPLES,
         run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
         dictionary=dictionary_digest(),
+        measured={name: "compression" in material for name, material in MEASURED.items()},
     script:
         "../scripts/comparison.py"
 

@@ -17,4 +17,5 @@ with recorded_job(snakemake):
     origin = study_provenance(samples)
     write_table(snakemake.output.table, rows, origin)
     seeds = {name: sample["seeds"] for name, sample in samples.items()}
-    write_json(snakemake.output.package, data_package(seeds, params.run_again), origin)
+    package = data_package(seeds, params.run_again, params.measured)
+    write_json(snakemake.output.package, package, origin)

@@ -8,6 +8,7 @@ import numpy as np
 
 from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
+from branchcrush.files.compression_tables import CompressionTable, read_compression
 from branchcrush.files.declared import Declared
 from branchcrush.files.grading_tables import (
     read_density_table,
@@ -158,6 +159,38 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
         if file is None or str(file) in str(error):
             raise
         raise GradingError(f"{file}: {error}") from None
+
+
+def compression_of(section: Mapping[str, Any]) -> CompressionTable:
+    """Return the compression curve that a section of the configuration describes.
+
+    Parameters
+    ----------
+    section : mapping
+        From `model_dump` of a `config.measured.CompressionTest`.
+
+    Returns
+    -------
+    CompressionTable
+
+    Raises
+    ------
+    GradingError
+        When the file or what it holds is not usable; one line for each problem.
+
+    Examples
+    --------
+    >>> compression_of({"file": "no.csv", "values": "strain", "stress_unit": "kPa"})
+    Traceback (most recent call last):
+    branchcrush.errors.GradingError: ...no.csv...
+    """
+    keys = ("columns", "sheet", "initial_void_ratio")
+    return read_compression(
+        section["file"],
+        section["values"],
+        section["stress_unit"],
+        **{key: section.get(key) for key in keys},
+    )
 
 
 def unit_of(section: Mapping[str, Any]) -> tuple[str, float, str]:

@@ -5,13 +5,13 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
-from branchcrush.config.build import grading_of, unit_of
+from branchcrush.config.build import unit_of
 from branchcrush.config.fields import one_line
-from branchcrush.config.gradings import GradingSection
+from branchcrush.config.grading_files import checked_grading
 from branchcrush.config.history import history_loads
-from branchcrush.config.messages import shown
+from branchcrush.config.measured_checks import measured_problems
 from branchcrush.config.names import REFINED
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import Config, Sample, checked_config
@@ -80,6 +80,11 @@ def checked_study(
             for line in sample_problems(section, few_grains=few_grains)
         ]
     problems += _history_problems(config)
+    materials = raw.get("measured") if isinstance(raw, dict) else None
+    for name, section in materials.items() if isinstance(materials, dict) else ():
+        problems += [
+            f"config: measured.{one_line(name)}.{line}" for line in measured_problems(section)
+        ]
     # A name that is none of a folder was refused as such.
     names = [name for name in samples if isinstance(name, str) and Path(name).name == name]
     problems += [f"config: {line}" for line in _folder_problems(Path(folder), names)]
@@ -110,7 +115,7 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     """
     if not isinstance(section, dict):
         return []
-    grading, problems = _grading(section.get("grading"))
+    grading, problems = checked_grading(section.get("grading"))
     if grading is None:
         return problems
     try:
@@ -189,79 +194,9 @@ def _stress_problems(sample, grading):
     ]
 
 
-def _grading(raw):
-    """Return the grading of a section, or None, and what is wrong with its files."""
-    try:
-        section = TypeAdapter(GradingSection).validate_python(raw).model_dump(exclude_none=True)
-    except ValidationError:
-        return None, _unread_files(raw)
-    problems = _file_problems(section)
-    if problems:
-        return None, problems
-    try:
-        return grading_of(section), []
-    except GradingError as error:
-        return None, [f"grading: {line}" for line in str(error).splitlines()]
-
-
-def _file_problems(section, key="grading"):
-    """Return what is wrong with the files of a section, or of each part of a mixture."""
-    if section["form"] == "mixture":
-        parts = enumerate(section["components"])
-        return [
-            problem
-            for place, part in parts
-            for problem in _file_problems(part["grading"], f"{key}.components.{place}.grading")
-        ]
-    if "file" not in section:
-        return []
-    if problems := _unread_file(section["file"], key):
-        return problems
-    try:
-        grading_of(section)
-    except GradingError as error:
-        return [f"{key}.file: {line}" for line in str(error).splitlines()]
-    return []
-
-
-def _unread_files(raw, key="grading"):
-    """Return which files are not there, of a section with other mistakes."""
-    if not isinstance(raw, dict):
-        return []
-    parts = raw.get("components")
-    problems = [
-        problem
-        for place, part in enumerate(parts if isinstance(parts, list) else [])
-        if isinstance(part, dict)
-        for problem in _unread_files(part.get("grading"), f"{key}.components.{place}.grading")
-    ]
-    return problems + _unread_file(raw.get("file"), key)
-
-
-def _unread_file(name, key):
-    """Return what keeps a file from being read, before anything is."""
-    if not isinstance(name, str) or not name:
-        return []
-    path = Path(name)
-    try:
-        if path.is_dir():
-            what = "is a folder; give the name of a file in it"
-        elif not path.exists():
-            what = f"there is no such file in {Path.cwd()}; names are relative to that folder"
-        elif not path.is_file():
-            what = "is no regular file; give the name of a text file"
-        elif not os.access(path, os.R_OK):
-            what = "cannot be read: change its permissions"
-        else:
-            return []
-    except (OSError, ValueError):  # of a name that no file can have
-        what = "is no name of a file"
-    return [f"{key}.file = {shown(name)}: {what}"]
-
-
 def _folder_problems(folder, samples):
     """Return which folders of results cannot be written to."""
-    below = [Path("results"), Path("logs"), Path("results/figures")]
+    below = [Path("results"), Path("logs"), Path("results/figures"), Path("results/measured")]
     for name in samples:
         below += [Path("results", name), Path("results", name + REFINED), Path("logs", name)]
         below += [Path("results/figures", name)]

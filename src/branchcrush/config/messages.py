@@ -140,10 +140,18 @@ def _kind_below(kind, part):
     kind = _bare(kind)
     if isinstance(kind, type) and issubclass(kind, BaseModel):
         field = kind.model_fields.get(part)
-        return field and typing.Annotated[field.annotation, field, *field.metadata]
+        return field and typing.Annotated[_given(field.annotation), field, *field.metadata]
     if typing.get_origin(kind) in (dict, list):
         return typing.get_args(kind)[-1]
     return None
+
+
+def _given(kind):
+    """Return the type of a value where nothing may be given instead."""
+    if typing.get_origin(kind) in (typing.Union, types.UnionType):
+        others = [each for each in typing.get_args(kind) if each is not type(None)]
+        return others[0] if len(others) == 1 else kind
+    return kind
 
 
 def _bare(kind):

@@ -80,7 +80,8 @@ def tables(schema: Mapping[str, Any]) -> dict[str, str]:
     header = ["key", "meaning", "unit", "default", "allowed"]
     made = {"keys": _table(header, _keys(schema, schema, ""))}
     for name, choices in _choices(schema, schema).items():
-        made.setdefault(name, _choice_table(schema, choices))
+        if _told_at(schema, name, choices) == name:
+            made[name] = _choice_table(schema, choices)
     return made
 
 
@@ -140,9 +141,8 @@ def _keys(root, section, above) -> Iterator[Key]:
             inner, path_below = _resolved(root, below["items"]), f"{path}[]."
         elif "properties" in below and not required:
             default = ""
-        yield Key(
-            f"`{path}`", meaning.replace("<", "&lt;"), unit or "", default, _allowed(name, below)
-        )
+        allowed = _allowed(_told_at(root, name, below), below)
+        yield Key(f"`{path}`", meaning.replace("<", "&lt;"), unit or "", default, allowed)
         if "properties" in inner:
             yield from _keys(root, inner, path_below)
 
@@ -160,8 +160,21 @@ def _choices(root, section) -> dict[str, Any]:
     return found
 
 
+def _told_at(root, name, section):
+    """Return the first key whose section has the same forms, which one table tells of."""
+    if "discriminator" not in section:
+        return name
+    # Those found first come last.
+    choices = reversed(_choices(root, root).items())
+    return next((key for key, at in choices if at["oneOf"] == section["oneOf"]), name)
+
+
 def _resolved(root, value):
-    """Return a part of a schema with what it refers to."""
+    """Return a part of a schema with what it refers to; of one that may be left out, too."""
+    kinds = [kind for kind in value.get("anyOf", ()) if kind != _NOTHING]
+    if len(kinds) == 1 and {"$ref", "oneOf"} & kinds[0].keys():
+        others = {key: other for key, other in value.items() if key != "anyOf"}
+        return {**_resolved(root, kinds[0]), **others}
     if "$ref" not in value:
         return value
     return {**root["$defs"][value["$ref"].rpartition("/")[2]], **value}
@@ -187,7 +200,8 @@ def _allowed(name, value):
     if kind == "string":
         return "text"
     if kind == "array" and "$ref" not in value["items"]:
-        return f"a list of {value['minItems']} to {value['maxItems']}"
+        least, most = value["minItems"], value["maxItems"]
+        return f"a list of {least}" if least == most else f"a list of {least} to {most}"
     if kind == "object" and "required" in value and value.get("description") is None:
         return f"`{{{', '.join(value['required'])}}}`"
     return _bounds(value) if kind in ("number", "integer") else ""

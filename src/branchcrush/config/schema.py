@@ -27,6 +27,7 @@ from branchcrush.config.fields import (
     refusal,
 )
 from branchcrush.config.gradings import GradingSection
+from branchcrush.config.measured import Measured
 from branchcrush.config.messages import problem
 from branchcrush.config.names import NAMES_SCHEMA, SampleName
 from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
@@ -231,6 +232,12 @@ class Config(Section):
         EnergySplit(), description="How the energy split is binned, and the intervals found."
     )
     thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
+    measured: dict[SampleName, Measured] = Field(
+        {},
+        description="Materials that a laboratory measured, by names of your own; results go to "
+        "results/measured/<name>.",
+        json_schema_extra={"propertyNames": NAMES_SCHEMA},
+    )
     figures: Figures = Field(Figures(), description="What the figures look like.")
     keep_dumps: Literal["all", "last", "none"] = Field(
         "all",

@@ -23,15 +23,15 @@ _THREE = "; a histogram may have three: lower, upper, value"
 _SHEET = "must be the name of a sheet of the workbook, or its number from 1"
 # A section may name its columns, in any order.
 _NAMED = (("opening", "value"), ("size", "value"), ("lower", "upper", "value"))
-_NAME = {"anyOf": [{"type": "string", "minLength": 1}, {"type": "integer", "minimum": 1}]}
+NAME_SCHEMA = {"anyOf": [{"type": "string", "minLength": 1}, {"type": "integer", "minimum": 1}]}
 _NOTHING = {"type": "null"}
 _COLUMNS_SCHEMA = {
     "anyOf": [
-        {"type": "array", "items": _NAME, "minItems": 2, "maxItems": 3},
+        {"type": "array", "items": NAME_SCHEMA, "minItems": 2, "maxItems": 3},
         *(
             {
                 "type": "object",
-                "properties": dict.fromkeys(names, _NAME),
+                "properties": dict.fromkeys(names, NAME_SCHEMA),
                 "required": list(names),
                 "additionalProperties": False,
             }
@@ -57,19 +57,34 @@ def _columns(columns: Any, info: ValidationInfo) -> Any:
         names = next((names for names in _NAMED if set(columns) == set(names)), ())
         columns = [columns[name] for name in names]
     usable = isinstance(columns, (list, tuple)) and len(columns) in ((2, 3) if three else (2,))
-    if not usable or not all(map(_is_name, columns)):
+    if not usable or not all(map(is_name, columns)):
         raise refusal(_COLUMNS + (_THREE if three else ""))
     return list(columns)
 
 
 def _sheet(sheet: Any) -> Any:
     """Return the name or the number of a sheet."""
-    if sheet is not None and not _is_name(sheet):
+    if sheet is not None and not is_name(sheet):
         raise refusal(_SHEET)
     return sheet
 
 
-def _is_name(name: Any) -> bool:
+def is_name(name: Any) -> bool:
+    """Return whether a value names a column or a sheet: words, or a number from 1.
+
+    Parameters
+    ----------
+    name : object
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> is_name("mm"), is_name(0), is_name(True)
+    (True, False, False)
+    """
     if isinstance(name, bool):
         return False
     return (isinstance(name, int) and name >= 1) or (isinstance(name, str) and name != "")
@@ -126,6 +141,13 @@ class HistogramKeys(Section):
         return scale
 
 
+SheetName = Annotated[
+    str | int | None,
+    BeforeValidator(_sheet),
+    WithJsonSchema({"anyOf": [*NAME_SCHEMA["anyOf"], _NOTHING]}),
+]
+
+
 class FileKeys(Section):
     """Which columns of which sheet are meant, where a file has more than two."""
 
@@ -136,8 +158,6 @@ class FileKeys(Section):
         description="Columns of the sizes and of the values, each by the words above it or by its "
         "number from 1; a histogram may have three: lower, upper, value.",
     )
-    sheet: Annotated[
-        str | int | None,
-        BeforeValidator(_sheet),
-        WithJsonSchema({"anyOf": [*_NAME["anyOf"], _NOTHING]}),
-    ] = Field(None, description="Sheet of a workbook, by its name or its number from 1.")
+    sheet: SheetName = Field(
+        None, description="Sheet of a workbook, by its name or its number from 1."
+    )

@@ -24,11 +24,14 @@ _LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage
 _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate")
+# Of materials that a laboratory measured; the second of those with a compression curve.
+_OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
 
 
 def data_package(
     samples: Mapping[str, Sequence[int]],
     run_again: Mapping[str, Sequence[int]],
+    measured: Mapping[str, bool] | None = None,
 ) -> dict[str, Any]:
     """Return the description of all files of a study, with every column's type, unit and meaning.
 
@@ -41,6 +44,8 @@ def data_package(
     run_again : mapping
         Seeds by name of what is run again with smaller strain steps; of these there are the
         packings and their certificates alone.
+    measured : mapping, optional
+        By name of a measured material whether it has a compression curve.
 
     Returns
     -------
@@ -64,8 +69,12 @@ def data_package(
     for file in result_files():
         if file.rule in _LEFT_OUT or file.path in _LEFT_OUT or file.path.endswith(_DUMP):
             continue
-        everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
-        resources += [_resource(file, path) for path in _paths(file.path, everything)]
+        if file.rule in _OF_MATERIALS:
+            paths = _paths_of_materials(file, measured or {})
+        else:
+            everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
+            paths = _paths(file.path, everything)
+        resources += [_resource(file, path) for path in paths]
     return {
         "$schema": _PROFILE,
         "name": "branchcrush-results",
@@ -86,6 +95,16 @@ def _paths(path: str, samples: Mapping[str, Sequence[int]]) -> Iterator[str]:
             yield from (of_sample.replace("<seed>", str(seed)) for seed in seeds)
         else:
             yield of_sample
+
+
+def _paths_of_materials(file: ResultFile, measured: Mapping[str, bool]) -> Iterator[str]:
+    """Yield the files of one kind that a study with measured materials has."""
+    if "<material>" not in file.path:
+        yield from [file.path] if measured else []
+        return
+    for name, compressed in measured.items():
+        if compressed or file.rule != "measured_resistance":
+            yield file.path.replace("<material>", name)
 
 
 def _resource(file: ResultFile, path: str) -> dict[str, Any]:

@@ -2,7 +2,8 @@
 
 It is written down once, in the TOML files of `meanings`, a file for each stage. From them come
 `docs/results.md`, `datapackage.json` beside the results, and the test that holds both against a
-real run. A path there may hold ``<sample>``, ``<seed>`` and ``<rule>``. A name may hold braces as a
+real run. A path there may hold ``<sample>``,
+``<material>``, ``<seed>`` and ``<rule>``. A name may hold braces as a
 shell expands them, as in ``exponent{,_low,_high}``; ``a.b`` is a key in a key of JSON, ``a[].b`` a
 key of each in a list.
 """
@@ -17,7 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 _MEANINGS = Path(__file__).with_name("meanings")
-_PLACES = {"sample": r"[^/]+", "seed": r"\d+", "rule": r"\w+"}
+_PLACES = {"sample": r"[^/]+", "material": r"[^/]+", "seed": r"\d+", "rule": r"\w+"}
 _BRACES = re.compile(r"\{([^{}]*)\}")
 _LIMITS = {"_low": "; lower end of its interval", "_high": "; upper end of its interval"}
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
@@ -46,7 +47,7 @@ def plot_grading(grading: Table, ax: Axes | None = None) -> Axes:
             ax.plot(diameter, grading[column], line, color=color, label=label)
     ax.set(xscale="log", ylabel="percent finer [%]", ylim=(0, 102))
     ax.set_xlabel(f"grain diameter D [{unit}]")
-    _mark_sizes(ax.xaxis, diameter.max() / diameter.min())
+    mark_sizes(ax.xaxis, diameter.max() / diameter.min())
     # Curves by mass and by number leave different corners free.
     ax.legend(loc="best")
     return ax
@@ -90,13 +91,23 @@ def plot_preview(
             ax.plot(diameter, grading[column], line, color=color, lw=width, label=label)
     ax.set(xscale="log", ylabel="percent finer [%]", ylim=(0, 102))
     ax.set_xlabel(f"grain diameter D [{unit}]")
-    _mark_sizes(ax.xaxis, diameter.max() / diameter.min(), narrow=300)
+    mark_sizes(ax.xaxis, diameter.max() / diameter.min(), narrow=300)
     # Curves by mass and by number leave different corners free.
     ax.legend(loc="best")
     return ax
 
 
-def _mark_sizes(axis, ratio, narrow=30):
+def mark_sizes(axis: Axis, ratio: float, narrow: float = 30.0) -> None:
+    """Mark sizes on a logarithmic axis, with numbers as they are.
+
+    Parameters
+    ----------
+    axis : Axis
+    ratio : float
+        Largest over smallest size on it [-].
+    narrow : float
+        Below which more than the decades are marked [-].
+    """
     # The marks of a logarithmic axis are decades, of which narrow gradings have one or none.
     if ratio < 6:
         axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))

@@ -90,7 +90,7 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
         for page in samples
     ]
     return (
-        _environment()
+        page_environment()
         .from_string(template)
         .render(samples=pages, estimators=ESTIMATORS, version=__version__)
     )
@@ -124,7 +124,7 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     # A study of which no sample has a number has no column for it.
     records = [defaultdict(lambda: None, row) for row in known]
     return (
-        _environment()
+        page_environment()
         .from_string(template)
         .render(
             rows=records,
@@ -137,7 +137,8 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     )
 
 
-def _environment() -> Environment:
+def page_environment() -> Environment:
+    """Return what every page is rendered with: its filters, and nothing undefined passed over."""
     environment = Environment(autoescape=True, undefined=StrictUndefined)
     environment.filters |= {
         "answer": yes_or_no,

@@ -3,7 +3,8 @@
 from branchcrush.files.datapackage import data_package
 from branchcrush.files.dictionary import result_files
 
-PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]})
+MATERIALS = {"quartz": True, "sieved": False}  # whether there is a compression curve
+PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS)
 BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
 
 
@@ -25,6 +26,16 @@ def test_seeds_run_again_have_a_certificate_and_no_fit():
     assert "Sand-refined/energy_split.json" not in again
     assert "Sand-refined/certificate.json" not in again
     assert not any("refined" in path for path in BY_PATH if path.startswith("figures/"))
+
+
+def test_a_material_has_the_files_of_what_was_measured_and_a_study_without_one_has_none():
+    of_materials = {path for path in BY_PATH if "measured" in path}
+    assert "measured/quartz/compression.json" in of_materials
+    assert "measured/sieved/breakage.json" in of_materials
+    assert "measured/sieved/compression.json" not in of_materials
+    assert {"measured.html", "figures/measured/sieved/gradings.png"} <= of_materials
+    paths = [resource["path"] for resource in data_package({"sand": [1]}, {})["resources"]]
+    assert not [path for path in paths if "measured" in path]
 
 
 def test_a_table_has_a_schema_with_units_and_says_where_its_comment_is():

@@ -1,0 +1,97 @@
+# Measured: gradings before and after a test, and a compression curve -> breakage, the resistance to
+# crushing, and a page of their own. No packing is needed for it, and none waits for it.
+
+
+def material_of(wildcards):
+    return MEASURED[wildcards.material]
+
+
+def gradings_of(*names):
+    """Return an input function for the files of some gradings of a material."""
+    return lambda wildcards: [
+        local(file)
+        for name in names
+        for file in grading_data_files(material_of(wildcards).get(name, {}))
+    ]
+
+
+def measured_keys(*names):
+    """Return a params function for some keys of a material, as plain values."""
+    return lambda wildcards: {name: material_of(wildcards).get(name) for name in names}
+
+
+def measured_figure(name):
+    return report(
+        f"results/figures/measured/{{material}}/{name}.png",
+        caption=f"../report/captions/measured_{name}.rst",
+        category="Measured {material}",
+        labels={"figure": name},
+    )
+
+
+rule measured:
+    input:
+        data=gradings_of("before", "after"),
+    output:
+        curves="results/measured/{material}/gradings.csv",
+        breakage="results/measured/{material}/breakage.json",
+        figure=measured_figure("gradings"),
+        record="results/measured/{material}/made/measured.json",
+    log:
+        "logs/measured/{material}/measured.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("measured"),
+        material=measured_keys("before", "after", "ultimate_alpha", "ultimate_smallest"),
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/measured.py"
+
+
+rule measured_resistance:
+    input:
+        data=gradings_of("before"),
+        curve=lambda wildcards: local(material_of(wildcards)["compression"]["file"]),
+    output:
+        curve="results/measured/{material}/compression.csv",
+        line="results/measured/{material}/compression_line.csv",
+        summary="results/measured/{material}/compression.json",
+        figure=measured_figure("compression"),
+        record="results/measured/{material}/made/measured_resistance.json",
+    log:
+        "logs/measured/{material}/measured_resistance.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("measured_resistance"),
+        material=measured_keys("before", "ultimate_alpha", "ultimate_smallest", "compression"),
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/measured_resistance.py"
+
+
+COMPRESSED = [name for name, material in MEASURED.items() if "compression" in material]
+MEASURED_PAGE = str(ROOT / "workflow/report/measured.html.jinja")
+
+
+rule measured_page:
+    input:
+        breakages=expand("results/measured/{material}/breakage.json", material=MEASURED),
+        gradings=expand("results/figures/measured/{material}/gradings.png", material=MEASURED),
+        fits=expand("results/measured/{material}/compression.json", material=COMPRESSED),
+        curves=expand("results/figures/measured/{material}/compression.png", material=COMPRESSED),
+    output:
+        page="results/measured.html",
+        record="results/made/measured_page.json",
+    log:
+        "logs/measured_page.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("measured_page", MEASURED_PAGE),
+        template=MEASURED_PAGE,
+        materials=list(MEASURED),
+        compressed=COMPRESSED,
+    script:
+        "../scripts/measured_page.py"
