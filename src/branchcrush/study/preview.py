@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from branchcrush.branches.random_contacts import random_contact_moment
-from branchcrush.crushing.elasticity import FEWEST_STATES
+from branchcrush.crushing.elastic_fits import FEWEST_STATES
 from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.distribution import Grading
