@@ -17,7 +17,7 @@ from branchcrush.files.tables import no_data
 from branchcrush.gradings.curves import ultimate_grading
 from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.samples.crushing_curves import form_curves, form_table
+from branchcrush.samples.crushing_curves import FIXED_CRUSHING, form_curves, form_table
 from branchcrush.samples.elastic_law import MeasuredElasticity, measured_elasticity
 from branchcrush.samples.ensemble import certified_loading, on_the_way_in
 from branchcrush.samples.forms_of_sample import FormsOfSample, degenerate, forms_of, untested
@@ -133,7 +133,10 @@ def crushing_model(
     resistance = resistance_of(forms, law, settings)
     curves, tables, told = [], [], {}
     for name, form in forms.made.items():
-        rows, evolution = form_curves(form, measured.law, resistance, measured.largest)
+        found = _told(form, measured, resistance, forms.sentences.get(name, []))
+        end = found["inadmissible_from"]
+        fixed = [at for at in FIXED_CRUSHING if end is None or at < end]
+        rows, evolution = form_curves(form, measured.law, resistance, measured.largest, fixed)
         if name == "paper":
             energy = rows["elastic_energy_J_per_m3"]
             rows["reference_energy_J_per_m3"] = reference_energy(
@@ -147,7 +150,7 @@ def crushing_model(
         )
         told[name] = {
             "reason": None,
-            **_told(form, measured, resistance, forms.sentences.get(name, [])),
+            **found,
             "crushing_at_end": float(evolution.crushing.max()),
         }
     nothing = {**dict.fromkeys(told[next(iter(told))]), "snaps": [], "sentences": []}
