@@ -34,7 +34,7 @@ def form_curves(
     elasticity: Elasticity,
     resistance: Resistance,
     largest: float,
-    fixed: Sequence[float] = FIXED_CRUSHING,
+    fixed: Sequence[float],
 ) -> tuple[pd.DataFrame, Evolution]:
     """Return the curves of a form, as far as it is admissible and its elastic law is known.
 
@@ -64,12 +64,10 @@ def form_curves(
     back = form.total_strain(elastic, reached.crushing[-1])
     evolution = evolve(np.append(loading, back), form, elasticity, resistance)
     curves = _evolved(form, elasticity, resistance, "crushing", evolution)
-    last = line.looks[-1]
     parts = [curves]
     for crushing in fixed:
-        if crushing <= (1.0 if last > _COMPLETE else last):
-            strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
-            parts.append(_states(form, elasticity, resistance, "fixed", strain, crushing))
+        strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
+        parts.append(_states(form, elasticity, resistance, "fixed", strain, crushing))
     return pd.concat(parts, ignore_index=True), evolution
 
 

@@ -109,6 +109,18 @@ def test_too_few_states():
         measured_elasticity([path_of(solid_fraction=DENSE[:3])], KNOWN)
 
 
+@pytest.mark.parametrize("phi", [[0.4, 0.5, 0.6], [0.66, 0.68]])
+def test_path_that_carries_load_in_too_few_states_is_no_data(phi):
+    with pytest.raises(FitError, match="no elastic law in the loading path"):
+        measured_elasticity([path_of(solid_fraction=phi)])
+
+
+def test_it_is_known_up_to_the_densest_state_of_any_seed():
+    found = measured_elasticity([path_of(solid_fraction=DENSE[:20]), path_of()], KNOWN)
+    assert found.largest == pytest.approx(1 - JAMMING / 0.74, rel=1e-12)
+    assert found.on_path
+
+
 def test_the_interval_is_that_of_the_packings_used():
     jamming = pd.DataFrame({"jamming_solid_fraction_loading": [0.60, 0.62, 0.64, 0.9, np.nan]})
     found = certified_jamming(jamming, [0, 1, 2, 4])
