@@ -34,7 +34,7 @@ def form_curves(
     elasticity: Elasticity,
     resistance: Resistance,
     largest: float,
-    fixed: Sequence[float] = FIXED_CRUSHING,
+    fixed: Sequence[float],
 ) -> tuple[pd.DataFrame, Evolution]:
     """Return the curves of a form, as far as it is admissible and its elastic law is known.
 
@@ -57,19 +57,16 @@ def form_curves(
         Of the first.
     """
     line = YieldLine(form, elasticity, resistance)
-    end = _last_strain(line, largest)
+    end, crushing = _end(line, largest)
     loading = np.union1d(np.linspace(0.0, end, _IN + 1), np.minimum(line.loads[:1], end))
-    reached = evolve([end], form, elasticity, resistance)
-    elastic = reached.elastic_strain[-1] * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
-    back = form.total_strain(elastic, reached.crushing[-1])
+    elastic = form.elastic_strain(end, crushing) * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
+    back = form.total_strain(elastic, crushing)
     evolution = evolve(np.append(loading, back), form, elasticity, resistance)
     curves = _evolved(form, elasticity, resistance, "crushing", evolution)
-    last = line.looks[-1]
     parts = [curves]
     for crushing in fixed:
-        if crushing <= (1.0 if last > _COMPLETE else last):
-            strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
-            parts.append(_states(form, elasticity, resistance, "fixed", strain, crushing))
+        strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
+        parts.append(_states(form, elasticity, resistance, "fixed", strain, crushing))
     return pd.concat(parts, ignore_index=True), evolution
 
 
@@ -139,16 +136,14 @@ def events_table(form: ModelForm, elasticity: Elasticity, evolution: Evolution) 
     )
 
 
-def _last_strain(line: YieldLine, largest: float) -> float:
-    """Return the total strain at which C ends, or the elastic strain is the largest."""
-    form = line.form
-    elastic = line.resistance.yield_strain(line.looks, form, line.elasticity)
+def _end(line: YieldLine, largest: float) -> tuple[float, float]:
+    """Return the total strain at which C ends or the elastic strain is the largest, and about C."""
+    elastic = line.resistance.yield_strain(line.looks, line.form, line.elasticity)
     beyond = np.flatnonzero(~(elastic <= largest))
-    if beyond.size:
-        return float(form.total_strain(largest, line.looks[max(beyond[0] - 1, 0)]))
-    if line.looks[-1] > _COMPLETE:
-        return float(form.total_strain(largest, line.looks[-1]))
-    return float(line.loads.max()) * _BEYOND
+    last = float(line.looks[max(beyond[0] - 1, 0)] if beyond.size else line.looks[-1])
+    if beyond.size or last > _COMPLETE:
+        return float(line.form.total_strain(largest, last)), last
+    return float(line.loads.max()) * _BEYOND, last
 
 
 def _evolved(

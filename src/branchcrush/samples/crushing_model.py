@@ -16,6 +16,7 @@ from branchcrush.crushing.yield_line import Control
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.samples.crushing_bands import BANDS, End, with_bands
 from branchcrush.samples.crushing_curves import (
+    FIXED_CRUSHING,
     events_table,
     form_curves,
     form_table,
@@ -100,14 +101,16 @@ def crushing_model(
     resistance = resistance_of(forms, law, settings)
     curves, tables, events, told = [], [], [], {}
     for name, form in forms.made.items():
-        rows, evolution = form_curves(form, measured.law, resistance, measured.largest)
+        found = _told(form, measured, resistance, forms.sentences.get(name, []))
+        end = found["inadmissible_from"]
+        fixed = [at for at in FIXED_CRUSHING if end is None or at < end]
+        rows, evolution = form_curves(form, measured.law, resistance, measured.largest, fixed)
         of_form = [events_table(form, measured.law, evolution).assign(path="crushing")]
-        sentences = list(forms.sentences.get(name, []))
         if history is not None:
             own, of_own, sentence = _own_history(form, measured, resistance, history)
             rows = pd.concat([rows, own], ignore_index=True)
             of_form.append(of_own)
-            sentences += sentence
+            found["sentences"] += sentence
         if name == settings["form"]:
             rows = with_bands(rows, ends, resistance, history)
         events += [part.assign(form=name) for part in of_form]
@@ -124,7 +127,7 @@ def crushing_model(
         )
         told[name] = {
             "reason": None,
-            **_told(form, measured, resistance, sentences),
+            **found,
             "crushing_at_end": float(evolution.crushing.max()),
         }
     nothing = {**dict.fromkeys(told[next(iter(told))]), "snaps": [], "sentences": []}

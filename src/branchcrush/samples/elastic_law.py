@@ -154,18 +154,20 @@ def measured_elasticity(
         free = np.nan, np.nan, np.nan
     reason = "the certificate has no φ_J"
     law, jamming, limits = None, float(certified.estimate), (certified.low, certified.high)
-    if np.isfinite(jamming):
+    try:
+        if np.isfinite(jamming):
+            law, left_out = law_from(jamming)
+    except ValueError as error:
+        reason = f"from that of the certificate, {jamming:.4f}, there is no law: {error}"
+        if not np.isfinite(free[0]):
+            raise FitError(f"no elastic law in the loading path: {error}") from error
+    fallback = law is None
+    if fallback:
+        jamming, limits = free[0], (np.nan, np.nan)
         try:
             law, left_out = law_from(jamming)
         except ValueError as error:
-            reason = f"from that of the certificate, {jamming:.4f}, there is no law: {error}"
-    fallback = law is None
-    try:
-        if fallback:
-            jamming, limits = free[0], (np.nan, np.nan)
-            law, left_out = law_from(jamming)
-    except ValueError as error:
-        raise FitError(f"no elastic law in the loading path: {error}") from error
+            raise FitError(f"no elastic law in the loading path: {error}") from error
     largest = float(1.0 - jamming / phi.max())
     fit = _r_squared(law, jamming, phi, density)
     sentences = [
