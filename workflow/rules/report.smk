@@ -12,6 +12,9 @@ FIT_FIGURES = [
     "predictors",
     "loading_path",
     "crushing_model",
+    "crushing_energy",
+    "crushing_yield",
+    "crushing_path",
 ]
 NETWORK_TABLES = [
     "contact_numbers",
@@ -70,6 +73,7 @@ rule fit_figures:
         lengths="results/{sample}/branch_lengths.csv",
         statistics="results/{sample}/branch_lengths.json",
         curves="results/{sample}/thermodynamics.csv",
+        forms="results/{sample}/crushing_forms.csv",
         summary="results/{sample}/thermodynamics.json",
         paths=of_all_seeds("path.csv"),
         data=data_files,
@@ -121,6 +125,7 @@ rule report:
         },
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
+        forms=expand("results/{sample}/crushing_forms.csv", sample=SAMPLES),
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),

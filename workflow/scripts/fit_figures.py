@@ -3,6 +3,7 @@
 from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import read_json, read_table
+from branchcrush.plotting import crushing_figures as crushing
 from branchcrush.plotting import fit_figures as figures
 from branchcrush.records import recorded_job
 from branchcrush.samples.ensemble import stacked
@@ -11,7 +12,8 @@ with recorded_job(snakemake):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
     split, fit = read_table(files.split), EnergySplitFit.read(read_json(files.fit))
     lengths, statistics = read_table(files.lengths), read_json(files.statistics)
-    curves, model = read_table(files.curves), read_json(files.summary)
+    curves, forms = read_table(files.curves), read_table(files.forms)
+    model = read_json(files.summary)
     paths = stacked([read_table(path) for path in files.paths])
     _, largest = grading_of(snakemake.params.sample["grading"]).support()
 
@@ -21,4 +23,7 @@ with recorded_job(snakemake):
     figures.draw_exponent_path(output.exponent_path, dpi, read_table(files.split_path), fit)
     figures.draw_predictors(output.predictors, dpi, fit)
     figures.draw_loading_path(output.loading_path, dpi, paths, model)
-    figures.draw_crushing_model(output.crushing_model, dpi, curves, model)
+    crushing.draw_crushing_model(output.crushing_model, dpi, forms, curves, model)
+    crushing.draw_crushing_energy(output.crushing_energy, dpi, forms, model)
+    crushing.draw_crushing_yield(output.crushing_yield, dpi, forms, curves, model)
+    crushing.draw_crushing_path(output.crushing_path, dpi, curves, model)

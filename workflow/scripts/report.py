@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from branchcrush.energy.fit import EnergySplitFit
-from branchcrush.files.tables import read_json, write_text
+from branchcrush.files.tables import read_json, read_table, write_text
 from branchcrush.records import recorded_job
 from branchcrush.study.pages import SamplePage, render_report
 
@@ -20,9 +20,10 @@ with recorded_job(snakemake):
             EnergySplitFit.read(fit),
             *others,
             figures=dict(zip(params.figures, figures, strict=True)),
+            forms=read_table(forms),
         )
-        for (name, settings), (fit, *others), figures in zip(
-            params.samples.items(), results, drawn, strict=True
+        for (name, settings), (fit, *others), figures, forms in zip(
+            params.samples.items(), results, drawn, files.forms, strict=True
         )
     ]
     template = Path(params.template).read_text(encoding="utf-8")

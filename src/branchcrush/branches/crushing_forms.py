@@ -24,6 +24,8 @@ FORM_LABELS: Mapping[str, str] = MappingProxyType(
         "tengattini": "Tengattini, limiting densities",
     }
 )
+# Largest over smallest size up to which the forms were compared with packings.
+TESTED_RATIO = 20.0
 # Where the limiting density meets that of the rod map.
 _HALF = 0.5
 

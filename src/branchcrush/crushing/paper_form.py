@@ -3,6 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+# theta of the paper's form above which it says no more than that.
+DEGENERATE = 0.99
+
 
 def admissibility_problem(initial_moment: float, ultimate_moment: float) -> str | None:
     r"""Return why crushing from one grading to another is not admissible, and what to change.

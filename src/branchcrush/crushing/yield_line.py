@@ -1,5 +1,6 @@
 """The load at which each C yields: the line along which crushing goes on."""
 
+from copy import copy
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -68,6 +69,13 @@ class YieldLine:
         if end < self.pieces[-1]:
             self._end_at(end)
         self.loads = self.load_at(self.looks)
+
+    def under_stress(self) -> "YieldLine":
+        """Return the same line of the stresses at which each C yields."""
+        line = copy(self)
+        line.control = "stress"
+        line.loads = line.load_at(line.looks)
+        return line
 
     def _end_at(self, end: float, near: ArrayLike = ()) -> None:
         pieces = np.union1d(self.pieces, near)

@@ -1,13 +1,15 @@
 """Figures: from result files to pictures, each alone or all by the workflow.
 
-`packing_figures`, `fit_figures`, `network_figures`
+`packing_figures`, `fit_figures`, `network_figures`, `crushing_figures`
     One function a figure of a sample, as `draw_energy_split(path, dpi, table, fit)`: it takes what
     `files.tables.read_table` and `read_json` read, writes one PNG file and returns the Figure.
 `study_figures`
     The same for the figures of all samples together.
-`gradings`, `packings`, `loading`, `certificate`, `energy`, `predictors`, `branches`, `crushing`
+`gradings`, `packings`, `loading`, `certificate`, `energy`, `predictors`, `branches`
     The panels of a sample: `plot_...` draws one on an Axes and returns it; none saves a file. Who
     carries what is in `shielding` and `forces`.
+`crushing`, `crushing_paths`, `form_lines`
+    The panels of the crushing model, against C and along the strain; how its forms are drawn.
 `study`, `study_networks`
     The panels of all samples.
 `style`, `intervals`

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
-from branchcrush.plotting import branches, crushing, energy, loading, predictors
+from branchcrush.plotting import branches, energy, loading, predictors
 from branchcrush.plotting.style import drawn, figure, grid
 
 Path = str | os.PathLike
@@ -155,35 +155,4 @@ def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Fi
         loading.plot_energy_balance(states, ax=panels[0, 1])
         loading.plot_coordination(states, ax=panels[1, 0])
         drawn(loading.plot_elastic_law, model.get("reason"), states, model, ax=panels[1, 1])
-    return panels[0, 0].figure
-
-
-def draw_crushing_model(path: Path, dpi: int, curves: Table, model: Mapping) -> Figure:
-    """Draw the curves of the crushing model, and return the figure.
-
-    Parameters
-    ----------
-    path : path-like
-        A PNG file.
-    dpi : int
-    curves : DataFrame
-        `thermodynamics.csv`.
-    model : mapping
-        `thermodynamics.json`.
-
-    Returns
-    -------
-    Figure
-    """
-    free, stress = r"free energy $\Psi$ [MJ/m³]", r"mean stress $\sigma$ [MPa]"
-    with figure(path, dpi, *grid(3, 2)) as panels:
-        for ax, plot, *data in (
-            (panels[0, 0], crushing.plot_reference_energy, curves),
-            (panels[0, 1], crushing.plot_family, curves, "free_energy_J_per_m3", free),
-            (panels[1, 0], crushing.plot_family, curves, "stress_Pa", stress),
-            (panels[1, 1], crushing.plot_crushing, curves, model),
-            (panels[2, 0], crushing.plot_driving_force, curves),
-            (panels[2, 1], crushing.plot_dissipation, curves),
-        ):
-            drawn(plot, model.get("reason"), *data, ax=ax)
     return panels[0, 0].figure

@@ -18,6 +18,15 @@ from matplotlib import pyplot as plt
 MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"
 # What the two states are called that networks are measured in, and their colours.
 STATES = {"near_jamming": ("near jamming", "#6f9bc4"), "end": ("at the end", MEASURED)}
+# The forms of the crushing model: ours, the paper's and its kin, Einav's and its kin.
+FORMS = {
+    "moving_jamming": MODEL,
+    "paper": MEASURED,
+    "density": "#6f9bc4",
+    "measured_contacts": "#7d5ba6",
+    "einav": OTHER,
+    "tengattini": "#8dbf8b",
+}
 # One column of a journal page [inch].
 SIZE = (3.5, 2.7)
 # Solid fractions are drawn on an axis that is at least so wide [-].

@@ -57,11 +57,10 @@ def form_curves(
         Of the first.
     """
     line = YieldLine(form, elasticity, resistance)
-    end = _last_strain(line, largest)
+    end, crushing = _end(line, largest)
     loading = np.union1d(np.linspace(0.0, end, _IN + 1), np.minimum(line.loads[:1], end))
-    reached = evolve([end], form, elasticity, resistance)
-    elastic = reached.elastic_strain[-1] * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
-    back = form.total_strain(elastic, reached.crushing[-1])
+    elastic = form.elastic_strain(end, crushing) * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
+    back = form.total_strain(elastic, crushing)
     evolution = evolve(np.append(loading, back), form, elasticity, resistance)
     curves = _evolved(form, elasticity, resistance, "crushing", evolution)
     parts = [curves]
@@ -137,16 +136,14 @@ def events_table(form: ModelForm, elasticity: Elasticity, evolution: Evolution) 
     )
 
 
-def _last_strain(line: YieldLine, largest: float) -> float:
-    """Return the total strain at which C ends, or the elastic strain is the largest."""
-    form = line.form
-    elastic = line.resistance.yield_strain(line.looks, form, line.elasticity)
+def _end(line: YieldLine, largest: float) -> tuple[float, float]:
+    """Return the total strain at which C ends or the elastic strain is the largest, and about C."""
+    elastic = line.resistance.yield_strain(line.looks, line.form, line.elasticity)
     beyond = np.flatnonzero(~(elastic <= largest))
-    if beyond.size:
-        return float(form.total_strain(largest, line.looks[max(beyond[0] - 1, 0)]))
-    if line.looks[-1] > _COMPLETE:
-        return float(form.total_strain(largest, line.looks[-1]))
-    return float(line.loads.max()) * _BEYOND
+    last = float(line.looks[max(beyond[0] - 1, 0)] if beyond.size else line.looks[-1])
+    if beyond.size or last > _COMPLETE:
+        return float(line.form.total_strain(largest, last)), last
+    return float(line.loads.max()) * _BEYOND, last
 
 
 def _evolved(

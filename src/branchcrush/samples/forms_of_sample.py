@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from branchcrush.branches.crushing_forms import FORM_LABELS, crushing_forms
+from branchcrush.branches.crushing_forms import FORM_LABELS, TESTED_RATIO, crushing_forms
 from branchcrush.branches.mixing import MixingPath, mixing_path
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.forms import ModelForm
-from branchcrush.crushing.paper_form import admissibility_problem
+from branchcrush.crushing.paper_form import DEGENERATE, admissibility_problem
 from branchcrush.errors import FitError
 from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
@@ -23,10 +23,6 @@ _OF_AN_EXPONENT = ("paper", "density", "measured_contacts")
 # Exponents among which one is sought that makes them admissible, and C that are looked at.
 _LEAST, _MOST, _TRIALS = 0.5, 8.0, 16
 _PLACES = np.append(0.0, np.geomspace(1e-6, 1.0, 121))
-# theta of the paper's form above which it says no more than that.
-DEGENERATE = 0.99
-# Largest over smallest size up to which the forms were compared with packings.
-TESTED_RATIO = 20.0
 # Change with C that is rounding.
 _ROUNDING = 1e-9
 # So many times stiffer the fines are what carries load.

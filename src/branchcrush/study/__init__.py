@@ -14,6 +14,8 @@
 `preview`, `preview_text`
     `sample_plan`: sizes, time, memory and warnings of a sample before it runs, and all of it as
     text. `command.preview` makes both.
+`crushing_words`
+    The forms of the crushing model in words, and the one on the front along C.
 `pages`
     `render_report` and `render_findings` fill the templates of `workflow/report`.
 

@@ -13,7 +13,11 @@ from branchcrush import __version__
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import LIMITS, Interval, interval_text
+from branchcrush.study.crushing_words import form_rows, front_rows, yes_or_no
 from branchcrush.study.verdicts import GOOD_DISTANCE, verdicts
+
+# What `thermodynamics.json` has a sentence for only where there is something to say.
+_NOT_SAID = dict.fromkeys(("reason", "form_reason", "paper_degenerate", "untested"))
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,8 @@ class SamplePage:
         `thermodynamics.json`, `branch_lengths.json`, `certificate.json` and `grading.json`.
     figures : mapping of str to path-like
         By name of the figure.
+    forms : DataFrame
+        `crushing_forms.csv`.
     """
 
     name: str
@@ -41,11 +47,17 @@ class SamplePage:
     certificate: Mapping[str, Any]
     grading: Mapping[str, Any]
     figures: Mapping[str, Any]
+    forms: Table
 
     @property
     def one_state(self) -> bool:
         """Whether n is known in one state only, the end."""
         return self.fit.reason is None and self.fit.near_jamming is None
+
+    @property
+    def front(self) -> list[dict[str, Any]]:
+        """The form of the crushing model on the front, along C."""
+        return front_rows(self.forms, self.model)
 
 
 def render_report(template: str, samples: Sequence[SamplePage]) -> str:
@@ -70,7 +82,7 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
     pages = [
         replace(
             page,
-            model={"reason": None, **page.model},
+            model={**_NOT_SAID, **page.model},
             statistics={"reason": None, **page.statistics},
         )
         for page in samples
@@ -121,8 +133,10 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
 def _environment() -> Environment:
     environment = Environment(autoescape=True, undefined=StrictUndefined)
     environment.filters |= {
+        "answer": yes_or_no,
         "estimate": _estimate,
         "exponent": _exponent,
+        "form_rows": form_rows,
         "image": _image,
         "interval": _interval,
         "number": _number,

@@ -6,9 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from branchcrush.branches.crushing_forms import TESTED_RATIO
 from branchcrush.branches.random_contacts import random_contact_moment
-from branchcrush.crushing.elasticity import FEWEST_STATES
-from branchcrush.crushing.paper_form import admissibility_problem
+from branchcrush.crushing.elastic_fits import FEWEST_STATES
+from branchcrush.crushing.paper_form import DEGENERATE, admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
@@ -240,15 +241,27 @@ def _no_crushing(sample, ultimate):
         )
     if ultimate is None:
         return [*warnings, "one size: no ultimate grading -> no crushing model, and n says little"]
+    # n is not known yet: the paper's is near enough to tell.
     initial, crushed = (
         random_contact_moment(grading, PAPER_EXPONENT) for grading in (sample.grading, ultimate)
     )
     problem = admissibility_problem(initial, crushed)
     if problem is not None:
-        # n is not known yet: the paper's is near enough to tell.
         warnings.append(
-            f"the crushing model will have no curves at the paper's n = {PAPER_EXPONENT:g}, "
-            f"since {problem}"
+            f"the paper's form of the crushing model will have no curves at n = "
+            f"{PAPER_EXPONENT:g}, since {problem}"
+        )
+    elif (theta := 1.0 - crushed / initial) > DEGENERATE:
+        warnings.append(
+            f"theta of the paper's form is {theta:.6g} at n = {PAPER_EXPONENT:g} -> it says only "
+            "that complete crushing would release nearly all elastic energy; other forms stand "
+            "beside it"
+        )
+    smallest, largest = sample.grading.support()
+    if largest > TESTED_RATIO * (1.0 + 1e-9) * smallest:
+        warnings.append(
+            f"the largest grains are {largest / smallest:.4g} times the smallest -> beyond "
+            f"{TESTED_RATIO:g} no form of the crushing model is tested against simulation"
         )
     return warnings
 

@@ -1,79 +1,133 @@
-"""The crushing model: lines against the columns of its table, in MPa and per cent."""
+"""The forms of the crushing model along C: lines against the columns, in MPa; where dashed."""
 
-import pandas as pd
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.plotting import crushing
+from tests.unit.plotting.crushing_tables import (
+    CRUSHING,
+    FORMS,
+    RATIOS,
+    curves_table,
+    forms_table,
+    model,
+)
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-COLUMNS = {
-    "elastic_energy_J_per_m3": 1e6,
-    "reference_energy_J_per_m3": 2e6,
-    "free_energy_J_per_m3": 3e6,
-    "stress_Pa": 4e6,
-    "driving_force_J_per_m3": 5e6,
-    "resistance_J_per_m3": 6e6,
-    "dissipated_J_per_m3": 7e6,
-    "work_J_per_m3": 8e6,
-}
-STRAIN = [0.0, 0.1]
+FRONT, PAPER = FORM_LABELS["moving_jamming"], FORM_LABELS["paper"]
 
 
-def curves():
-    """Every quantity is a number of its own times 1 and 2; fixed C adds C to it."""
-    rows = [
-        {
-            "path": path,
-            "crushing": value,
-            "volumetric_strain": strain,
-            **{name: (k + 1) * scale + 1e6 * value for name, scale in COLUMNS.items()},
-        }
-        for path, values in (("crushing", (0.0,)), ("fixed", (0.0, 0.25, 0.5, 0.75, 1.0)))
-        for value in values
-        for k, strain in enumerate(STRAIN)
-    ]
-    table = pd.DataFrame(rows)
-    table.loc[table["path"] == "crushing", "crushing"] = [0.0, 0.5]
-    return table
+def dashed(ax):
+    """Return x and y of the lines of forms that are drawn as inadmissible."""
+    return [np.array(line.get_data()) for line in ax.lines if line.get_alpha() == 0.45]
 
 
-def test_reference_energy_is_drawn_beside_the_elastic_energy(shown):
-    ax = crushing.plot_reference_energy(curves())
-    assert_allclose(shown.points(ax.lines[0]), [[0.0, 10.0], [1.0, 2.0]])
-    assert_allclose(shown.points(ax.lines[1]), [[0.0, 10.0], [2.0, 4.0]])
-    assert [line.get_label().split()[0] for line in ax.lines] == [r"$\Psi_0$", r"$\psi_r"]
+def test_compression_line_is_void_ratio_against_stress(shown):
+    ax = crushing.plot_compression_line(forms_table(), curves_table(), model())
+    stress = 10.0**CRUSHING
+    assert_allclose(shown.line(ax, PAPER), [2.0 * stress, 0.7 - 0.2 * CRUSHING])
+    assert_allclose(shown.line(ax, FRONT), [stress[:3], 0.7 - 0.1 * CRUSHING[:3]])
+    assert ax.get_xscale() == "log"
 
 
-@pytest.mark.parametrize(("column", "scale"), [("free_energy_J_per_m3", 3.0), ("stress_Pa", 4.0)])
-def test_family_is_the_column_at_each_crushing_and_along_the_path(shown, column, scale):
-    ax = crushing.plot_family(curves(), column, "a label")
-    for value in (0.0, 0.25, 0.5, 0.75, 1.0):
-        drawn = shown.line(ax, f"C = {value:g}")
-        assert_allclose(drawn, [[0.0, 10.0], [scale + value, 2 * scale + value]])
-    assert_allclose(shown.line(ax, "C evolves, unloads"), [[0.0, 10.0], [scale, 2 * scale]])
-    assert ax.get_ylabel() == "a label"
+def test_compression_line_goes_on_dashed_where_crushing_costs_energy():
+    ax = crushing.plot_compression_line(forms_table(), curves_table(), model())
+    (line,) = dashed(ax)
+    assert_allclose(line, [10.0 ** CRUSHING[2:], 0.7 - 0.1 * CRUSHING[2:]])
 
 
-@pytest.mark.parametrize("yields", [True, False])
-def test_crushing_is_drawn_with_its_yield_strain_where_that_is_on_the_path(shown, yields):
-    model = {"theta": 0.25, "yield_strain": 0.05, "yields_on_path": yields}
-    ax = crushing.plot_crushing(curves(), model)
-    assert_allclose(shown.line(ax, "loading, unloading"), [[0.0, 10.0], [0.0, 0.5]])
-    marks = [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"]
-    assert marks == pytest.approx([5.0] if yields else [])
-    assert ax.get_ylim() == (0.0, 1.0)
-    assert ax.get_legend().get_title().get_text() == r"$\theta$ = 0.25"
+def test_a_form_that_costs_energy_is_left_out_of_the_compression_line_but_for_the_front(shown):
+    tables = forms_table(), curves_table()
+    assert FORM_LABELS["density"] not in str(
+        [line.get_label() for line in crushing.plot_compression_line(*tables, model()).lines]
+    )
+    ax = crushing.plot_compression_line(*tables, model("density"))
+    assert_allclose(dashed(ax)[0], [3.0 * 10.0**CRUSHING, 0.7 - 0.3 * CRUSHING])
 
 
-def test_driving_force_and_resistance_are_told_apart(shown):
-    ax = crushing.plot_driving_force(curves())
-    assert_allclose(shown.line(ax, r"driving force $E_C=\theta\Psi_0$"), [[0, 10], [5, 10]])
-    assert_allclose(shown.line(ax, r"resistance $E_{c0}/(1-C)^s$"), [[0, 10], [6, 12]])
+def test_c_is_written_along_the_line_of_the_form_on_the_front():
+    ax = crushing.plot_compression_line(forms_table(), curves_table(), model())
+    # By hand: a tenth of a decade and 0.01 of the void ratio for each tenth of C, to 0.5.
+    marks = {text.get_text(): text.xy for text in ax.texts}
+    assert next(iter(marks)) == "C = 0"
+    assert_allclose(marks["C = 0"], [1.0, 0.7])
+    assert_allclose(marks["0.5"], [10.0**0.5, 0.65])
 
 
-def test_work_stored_and_dissipated_energy_are_told_apart(shown):
-    ax = crushing.plot_dissipation(curves())
-    for label, scale in (("work", 8), (r"stored $\Psi$", 3), (r"dissipated $\int E_C\,dC$", 7)):
-        assert_allclose(shown.line(ax, label), [[0, 10], [scale, 2 * scale]])
+def test_loading_and_unloading_of_the_front_are_dotted_from_the_jamming_point(shown):
+    ax = crushing.plot_compression_line(forms_table(), curves_table(), model())
+    # e = (1 - eps)/0.6 - 1; the unloaded state has no place on a logarithmic axis.
+    drawn = shown.line(ax, "loading and unloading")
+    assert_allclose(drawn, [[2.0, 1.0], [0.9 / 0.6 - 1.0, 0.95 / 0.6 - 1.0]])
+
+
+def test_where_c_jumps_under_stress_is_marked_on_line_and_locus():
+    snapping = model()
+    snapping["forms"]["moving_jamming"]["snaps"] = [0.25]
+    line = crushing.plot_compression_line(forms_table(), curves_table(), snapping)
+    locus = crushing.plot_yield_stress(forms_table(), snapping)
+    (on_line,) = (mark for mark in line.lines if mark.get_marker() == "v")
+    (on_locus,) = (mark for mark in locus.lines if mark.get_marker() == "v")
+    assert_allclose(on_line.get_xydata(), [[10.0**0.25, 0.675]])
+    assert_allclose(on_locus.get_xydata(), [[0.25, 10.0**0.25]])
+
+
+def test_jamming_points_that_stay_are_one_line(shown):
+    ax = crushing.plot_jamming(forms_table(), model())
+    assert_allclose(shown.line(ax, FRONT), [CRUSHING[:3], 0.6 + 0.1 * CRUSHING[:3]])
+    assert PAPER not in [line.get_label() for line in ax.lines]
+    assert [text.get_text() for text in ax.texts] == ["all other forms"]
+    assert ax.texts[0].xy[1] == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize("column", RATIOS)
+def test_energy_is_its_column_along_c_and_the_front_is_wider_and_last(shown, column):
+    table = forms_table()
+    ax = crushing.plot_energy(table, model(), column)
+    for name in ("paper", "einav"):
+        drawn = table.loc[table["form"] == name, column]
+        assert_allclose(shown.line(ax, FORM_LABELS[name]), [CRUSHING, drawn])
+    names = [line.get_label() for line in ax.lines if line.get_label() in FORM_LABELS.values()]
+    assert names[-1] == FRONT
+    widths = {line.get_label(): line.get_linewidth() for line in ax.lines}
+    assert widths[FRONT] > widths[PAPER]
+    assert ax.get_title() == crushing.COMPARED[column]
+
+
+def test_a_form_without_energy_at_the_end_does_not_stretch_the_axis():
+    table = forms_table()
+    table.loc[table["form"] == "paper", RATIOS[0]] = 1.0 - 0.99999 * CRUSHING
+    ax = crushing.plot_energy(table, model(), RATIOS[0])
+    assert ax.get_ylim() == pytest.approx((0.01, 10.0))  # to twice 1 + 4 C of Einav
+
+
+def test_driving_force_is_drawn_with_the_region_where_crushing_costs_energy(shown):
+    ax = crushing.plot_driving_force(forms_table(), model())
+    assert_allclose(shown.line(ax, FRONT), [CRUSHING[:3], 0.3 * (0.6 - CRUSHING[:3])])
+    assert [text.get_text() for text in ax.texts] == ["crushing would cost elastic energy"]
+    (region,) = ax.patches
+    assert region.get_y() + region.get_height() == pytest.approx(0.0)
+    assert ax.get_ylim()[0] == pytest.approx(region.get_y())
+
+
+def test_yield_stress_is_in_mpa_along_c(shown):
+    ax = crushing.plot_yield_stress(forms_table(), model())
+    assert_allclose(shown.line(ax, PAPER), [CRUSHING, 2.0 * 10.0**CRUSHING])
+    assert ax.get_ylim() == pytest.approx((0.5, 80.0))  # of 1 to 4 10^C, twice as wide
+
+
+def test_a_grading_that_never_yields_has_no_line_and_no_mark():
+    table = forms_table().assign(yield_stress_Pa=np.nan, void_ratio=np.nan)
+    snapping = model()
+    snapping["forms"]["paper"]["snaps"] = [0.5]
+    line = crushing.plot_compression_line(table, curves_table(), snapping)
+    locus = crushing.plot_yield_stress(table, snapping)
+    for ax in (line, locus):
+        assert [text.get_text() for text in ax.texts] == ["crushing never begins"]
+    assert all(mark.get_marker() != "v" for mark in (*line.lines, *locus.lines))
+
+
+def test_tables_have_every_form_that_the_tests_count_on():
+    assert set(FORMS) < set(FORM_LABELS)

@@ -12,6 +12,7 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import single
 from branchcrush.packings.contact_laws import LinearContact
+from branchcrush.samples import thermodynamics
 from branchcrush.samples.crushing_model import crushing_model
 from branchcrush.samples.elastic_law import measured_elasticity
 from branchcrush.samples.forms_of_sample import forms_of
@@ -70,14 +71,16 @@ def results(fit=FIT, initial=INITIAL):
 
 
 @pytest.fixture(scope="module")
-def made():
-    return results()
-
-
-@pytest.fixture(scope="module")
 def forms():
     ultimate = fractal(1e-4, 1e-3, 2.6)
     return forms_of(INITIAL, ultimate, 3.0, LAW, NUMBERS, settings())
+
+
+@pytest.fixture(scope="module")
+def made(forms):
+    with pytest.MonkeyPatch.context() as patch:  # they take most of the time
+        patch.setattr(thermodynamics, "forms_of", lambda *asked: forms)
+        return results()
 
 
 def model(forms, **keys):

@@ -15,8 +15,9 @@ from branchcrush.packings.contact_laws import LinearContact
 from branchcrush.study.preview import sample_plan
 
 LOADING = Loading("edge_reduction", 0.4)
-# Finer than the grains of 1 mm, so that they can be crushed to it.
-TWO_SIZES = mixture([single(1e-4), single(2e-4)], [1.0, 1.0], "mass")
+# Finer than the grains of 1 mm, so that they can be crushed to it, and not by so much that the
+# paper's form degenerates.
+TWO_SIZES = mixture([single(4e-4), single(6e-4)], [1.0, 1.0], "mass")
 
 
 def plan_of(
@@ -124,7 +125,8 @@ def test_an_ultimate_grading_that_is_coarser_is_warned_of(smallest, warned):
     problems = [text for text in plan.warnings if "coarser" in text]
     assert len(problems) == warned
     if warned:
-        assert "at the paper's n = 3" in problems[0]
+        begin = "the paper's form of the crushing model will have no curves at n = 3, since "
+        assert problems[0].startswith(begin)
         assert "thermodynamics.ultimate_alpha" in problems[0]
         # <l^3> = 2<R^3> + 6<R><R^2>: 8 mm^3 of one radius; of a uniform one from 0.4 to 1 mm
         # <R> = 0.7, <R^2> = 0.52, <R^3> = 0.406, so 0.812 + 2.184.
@@ -151,7 +153,7 @@ def test_sizes_are_read_off_both_curves_and_the_drawn_grains():
     # Volumes of 1, 8, 8 and 27 parts: 2 %, 39 % and 100 % are finer.
     assert plan.drawn.by_mass == pytest.approx([1e-3, 2e-3, 2e-3, 3e-3, 3e-3, 3e-3, 3e-3])
     assert plan.drawn.by_number == pytest.approx([1e-3, 1e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3])
-    assert plan.ultimate.by_mass == pytest.approx([2e-4, 2e-4, 2e-4, 2e-4, 4e-4, 4e-4, 4e-4])
+    assert plan.ultimate.by_mass == pytest.approx(4 * [8e-4] + 3 * [1.2e-3])
     assert plan.largest_grains == (4, 1.0)
     assert plan.coarse_grains[1] == 1
     # One grain of 2 mm lifts the drawn curve from 2 % to 39 %, where 19 % are asked for.
@@ -171,6 +173,16 @@ def test_too_few_states_for_an_elastic_law_lead_to_no_theta(states, warned):
     assert len(texts) == (warned is not None)
     if warned:
         assert texts[0].startswith(f"{warned} state")
+
+
+def test_a_degenerate_form_and_untested_sizes_are_said_before_a_run():
+    # theta = 1 - <l^3>_u/<l^3>_0 with <l^3> = 8 R^3: 1 - 1/125.
+    degenerate = [text for text in plan_of(ultimate=single(2e-4)).warnings if "theta of" in text]
+    assert degenerate[0].startswith("theta of the paper's form is 0.992 at n = 3 ->")
+    assert not [text for text in plan_of(ultimate=single(3e-4)).warnings if "theta of" in text]
+    for ratio, said in ((20.0, False), (21.0, True)):
+        texts = plan_of(grading=uniform(1e-3 / ratio, 1e-3)).warnings
+        assert any(text.startswith("the largest grains are 21 times") for text in texts) == said
 
 
 def test_one_size_one_seed_and_no_refined_ones_lead_to_what_is_missing():

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from branchcrush.crushing.paper_form import admissibility_problem
@@ -16,15 +17,49 @@ from branchcrush.study.pages import SamplePage, render_report
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"
 FIGURES = re.findall(r"s\.figures\.(\w+)", TEMPLATE.read_text(encoding="utf-8"))
 
+FORM = {
+    "reason": None,
+    "admissible": True,
+    "inadmissible_from": None,
+    "hardens": True,
+    "snaps": [],
+    "sentences": [],
+}
 MODEL = {
+    "form": "moving_jamming",
+    "network": "rods",
     "theta": 0.891574,
+    "resistance": "critical_energy",
+    "critical_energy_J_per_m3": 2e5,
+    "hardening_exponent": 2.0,
     "yield_strain": 0.1015,
     "yield_stress_Pa": 6.1e6,
     "yields_on_path": True,
     "hardens_at_onset": True,
-    "hardening_exponent": 2.0,
-    "least_hardening_exponent": 1.39,
+    "forms": {
+        "moving_jamming": FORM
+        | {
+            "admissible": False,
+            "inadmissible_from": 0.5512,
+            "snaps": [0.12, 0.25],
+            "sentences": ["It ends at C = 0.55.", "It snaps."],
+        },
+        "paper": FORM | {"theta": 0.891574},
+        "density": FORM | {"theta": -0.25, "hardens": None, "inadmissible_from": 0.0},
+        "measured_contacts": {"reason": "no contacts <measured>"},
+    },
 }
+FORMS = pd.DataFrame(
+    {
+        "form": ["paper"] * 2 + ["moving_jamming"] * 4,
+        "crushing": [0.0, 1.0, 0.0, 0.1, 0.5, 0.6],
+        "jamming_solid_fraction": [0.61, 0.61, 0.64, 0.65, 0.76, 0.77],
+        "stiffness_ratio": [1.0, 0.1, 1.0, 1.15, 3.83, 4.0],
+        "driving_force_over_pressure": [0.006, 0.006, 0.41, 0.4, 0.04, -0.01],
+        "yield_stress_Pa": [1e6, 2e6, 3e6, 4e6, float("nan"), float("nan")],
+        "void_ratio": [0.5, 0.4, 0.54, 0.52, float("nan"), float("nan")],
+    }
+)
 STATISTICS = {"mean_length_1_m1": 1.4e-3, "eq4_length_1_m1": 1.2e-3}
 GRADING = dict.fromkeys(
     ("D_min_m", "D_max_m", "D10_m", "D30_m", "D50_m", "D60_m"), 1e-3
@@ -110,6 +145,7 @@ def page(tmp_path, fit):
             "certificate": certificate,
             "grading": {"target": GRADING, "realised": GRADING, "representativity": STANDING},
             "figures": dict.fromkeys(FIGURES, image),
+            "forms": FORMS,
         }
         return SamplePage(**(whole | parts))
 
@@ -143,7 +179,7 @@ def test_page_of_a_sample_without_data_says_why_and_shows_what_there_is(page):
     assert "<li>4 of 4 packings carry no load at the end of their loading</li>" in html
     for figure in ("grading", "packing", "loading path"):
         assert f'alt="{figure}"' in html
-    for figure in ("certificate", "energy split", "branch lengths", "crushing model"):
+    for figure in ("certificate", "energy split", "branch lengths", "compression line"):
         assert f'alt="{figure}"' not in html
 
 
@@ -287,8 +323,76 @@ def test_a_wide_interval_is_a_reason_like_others(page):
     assert f"<li>{reason}</li>" in page({"certificate": certificate})
 
 
-def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
-    model = {**MODEL, "theta": 0.0, "yield_strain": None, "yield_stress_Pa": None}
-    html = page({"model": {**model, "yields_on_path": False}})
-    assert "crushing would release nothing and never begins" in html
+# --- crushing ------------------------------------------------------------------------------------
+
+
+def test_the_form_on_the_front_is_named_with_why_and_its_numbers(page):
+    html = page({})
+    assert "On the front stands the form <b>moving jamming point</b>: fines fill voids" in html
+    assert "rods that push" in html and "random parking" not in html
+    assert "Crushing begins at an elastic strain of 10.15 % and 6.1 MPa; the stress rises" in html
+    assert "0.2 MJ/m&sup3; over (1 &minus; C)<sup>2</sup>" in html
+
+
+def test_the_front_is_tabled_along_c_as_far_as_it_is_admissible(page):
+    html = page({})
+    assert (
+        "<tr><td>0.10</td><td>0.6500</td><td>1.15</td> <td>0.400</td><td>4</td><td>0.520</td></tr>"
+    ) in html
+    assert "<td>0.50</td><td>0.7600</td><td>3.83</td> <td>0.040</td><td>none</td>" in html
+    assert "0.7700" not in html
+
+
+def test_every_form_says_whether_it_is_admissible_where_not_and_why(page):
+    html = page({})
+    moving = html[html.index("<tr><td>moving jamming point</td>") :]
+    assert "<td>none</td><td>no</td> <td>from C = 0.55</td> <td>yes</td>" in moving
+    assert "<td>at C = 0.12, 0.25</td></tr>" in moving
+    assert "<td>0.891574</td><td>yes</td> <td>never</td> <td>yes</td><td>never</td></tr>" in html
+    assert "<td>-0.25</td><td>yes</td> <td>at all C</td> <td>unknown</td>" in html
+    assert '<td class="words" colspan="5">no contacts &lt;measured&gt;</td></tr>' in html
+    assert "<p><b>moving jamming point</b>: It ends at C = 0.55. It snaps.</p>" in html
+
+
+def test_a_degenerate_form_is_said_on_the_front_and_in_the_section(page):
+    sentence = "theta is 0.99999"
+    html = page({"model": {**MODEL, "paper_degenerate": sentence}})
+    front, section = html.split('<h2 id="paper">')
+    assert f'<p class="note"><a href="#paper">paper</a>: {sentence}</p>' in front
+    assert f'<p class="note">{sentence}</p>' in section
+    assert sentence not in page({})
+
+
+def test_untested_size_ratios_are_said(page):
+    html = page({"model": {**MODEL, "untested": "a ratio of 200 is untested."}})
+    assert '<p class="note">a ratio of 200 is untested.</p>' in html
+
+
+def test_a_chosen_form_that_is_not_there_says_why_and_shows_the_others(page):
+    model = {**MODEL, "form": "measured_contacts", "form_reason": "No contacts were measured."}
+    html = page({"model": model})
+    assert '<p class="note">No contacts were measured.</p>' in html
+    assert "chosen by <code>thermodynamics.form</code>" in html
+    assert 'alt="compression line"' in html
     assert "Crushing begins at" not in html
+
+
+def test_limits_are_those_of_the_sample(page):
+    hertz = {"contact": {"law": "hertz"}, "boundary": "periodic"}
+    html = page({"settings": hertz})
+    for part in ("finer grains are stiffer", "between walls"):
+        assert part in page({})
+        assert part not in html
+
+
+def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
+    model = {**MODEL, "yield_strain": None, "yield_stress_Pa": None, "yields_on_path": False}
+    html = page({"model": model})
+    assert "By this form crushing never begins." in html
+    assert "Crushing begins at" not in html
+
+
+def test_a_limit_of_elastic_strain_is_told_with_its_numbers(page):
+    limit = {"resistance": "elastic_strain", "elastic_strain": 0.0125, "strength_exponent": 0.5}
+    html = page({"model": {**MODEL, **limit}})
+    assert "begins at 1.25 %" in html and "(strength exponent 0.5)" in html

@@ -1,0 +1,149 @@
+"""The crushing model along a loading and an unloading, against the strain."""
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+
+from branchcrush.branches.crushing_forms import FORM_LABELS
+from branchcrush.files.tables import Table
+from branchcrush.plotting.form_lines import each_form, plain_decades, width
+from branchcrush.plotting.style import FAINT, FORMS, MEASURED, MODEL, OTHER, axes
+
+STRAIN = "volumetric strain from jamming [%]"
+_SHADES = ("#08306b", "#2171b5", "#6baed6", "#fd8d3c", "#d94801")
+
+
+def plot_crushing(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
+    """Draw the crushing parameter of each form along loading and unloading.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        `thermodynamics.csv`.
+    model : mapping
+        `thermodynamics.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    for name, path in each_form(curves[curves["path"] == "crushing"], model):
+        style = {"color": FORMS[name], "lw": width(name, model), "label": FORM_LABELS[name]}
+        ax.plot(100 * path["volumetric_strain"], path["crushing"], **style)
+    ax.set(xlabel=STRAIN, ylabel="crushing parameter C [-]", ylim=(0, 1))
+    return ax
+
+
+def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
+    """Draw stress against strain by the form on the front: C evolving, and C that is held.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        `thermodynamics.csv`.
+    model : mapping
+        `thermodynamics.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax, form = axes(ax), model["form"]
+    fixed = curves[(curves["form"] == form) & (curves["path"] == "fixed")]
+    held = sorted(fixed["crushing"].unique())
+    for color, crushing in zip(_SHADES, held, strict=False):
+        rows = fixed[fixed["crushing"] == crushing]
+        strain, stress = 100 * rows["volumetric_strain"], rows["stress_Pa"] / 1e6
+        ax.plot(strain, stress, color=color, lw=0.8, label=f"C = {crushing:g}")
+    path = _path(curves, form)
+    ax.plot(
+        100 * path["volumetric_strain"], path["stress_Pa"] / 1e6, "k", lw=1.6, label="C evolves"
+    )
+    own = curves[(curves["form"] == form) & (curves["path"] == "history")]
+    if len(own):
+        strain, stress = 100 * own["volumetric_strain"], own["stress_Pa"] / 1e6
+        ax.plot(strain, stress, "--", color=MODEL, lw=1.2, label="history of the configuration")
+    ax.set(xlabel=STRAIN, ylabel="mean stress [MPa]")
+    _decades_below(ax, max(path["stress_Pa"].max(), own["stress_Pa"].max() if len(own) else 0.0))
+    return _legend_above(ax, 4)
+
+
+def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
+    """Draw the driving force against its resistance: crushing goes on where they are equal.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        `thermodynamics.csv`.
+    model : mapping
+        `thermodynamics.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax, path = axes(ax), _path(curves, model["form"])
+    strain = 100 * path["volumetric_strain"]
+    for column, label, style in (
+        ("driving_force_J_per_m3", "driving force", {"color": MODEL}),
+        ("resistance_J_per_m3", "resistance", {"color": MEASURED, "ls": "--"}),
+    ):
+        ax.plot(strain, path[column] / 1e6, label=label, **style)
+    ax.axhline(0.0, color="k", lw=0.5)
+    ax.set(xlabel=STRAIN, ylabel="energy per volume\nand C [MJ/m³]")
+    # Once C is held the driving force may be anything; what matters is near the resistance.
+    highest = path["resistance_J_per_m3"].max() / 1e6
+    if highest > 0:
+        low, high = ax.get_ylim()
+        ax.set_ylim(max(low, -0.3 * highest), min(high, 1.3 * highest))
+    return _legend_above(ax, 2)
+
+
+def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
+    """Draw work = stored + dissipated, and the part of it that moves the jamming point.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        `thermodynamics.csv`.
+    model : mapping
+        `thermodynamics.json`.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax, path = axes(ax), _path(curves, model["form"])
+    strain = 100 * path["volumetric_strain"]
+    for column, label, style in (
+        ("work_J_per_m3", "work", {"color": FAINT, "lw": 2.4}),
+        ("free_energy_J_per_m3", "stored", {"color": MEASURED}),
+        ("dissipated_J_per_m3", "dissipated", {"color": MODEL}),
+        ("plastic_work_J_per_m3", "plastic compaction", {"color": OTHER, "ls": "--"}),
+    ):
+        ax.plot(strain, path[column] / 1e6, label=label, **style)
+    ax.set(xlabel=STRAIN, ylabel="energy per volume [MJ/m³]")
+    _decades_below(ax, path["work_J_per_m3"].max())
+    return _legend_above(ax, 2)
+
+
+def _path(curves: Table, name: str) -> Table:
+    return curves[(curves["form"] == name) & (curves["path"] == "crushing")]
+
+
+def _decades_below(ax: Axes, highest: float) -> None:
+    """Let a vertical axis end at a number in Pa, and show what is up to 10 000 times less."""
+    if highest > 0:
+        ax.set_yscale("log")
+        ax.set_ylim(1e-4 * highest / 1e6, 2.0 * highest / 1e6)
+        plain_decades(ax.yaxis)
+
+
+def _legend_above(ax: Axes, columns: int) -> Axes:
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
+    return ax
