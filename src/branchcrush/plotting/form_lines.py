@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from numpy.typing import NDArray
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
@@ -182,4 +182,4 @@ def plain_decades(axis: Axis) -> None:
     steps = (1.0, 2.0, 5.0) if high < _SHORT * low else (1.0,)
     axis.set_major_locator(LogLocator(subs=steps, numticks=12 if len(steps) > 1 else 6))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(NullFormatter())
+    axis.set_minor_locator(NullLocator())
