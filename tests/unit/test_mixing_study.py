@@ -103,6 +103,15 @@ def test_a_state_after_which_the_strain_falls_again_is_left_out(study):
     assert study.along.at_level(*path, 0.03) == pytest.approx(4.0 * 1.5**2)
 
 
+def test_the_jamming_point_is_where_the_stress_vanishes(study):
+    root = np.linspace(1.0, 9.0, 8) * 1e4
+    fraction = 0.72 + 1e-6 * root + 2e-12 * root**2
+    for exponent in (1.0, 1.5):
+        found = study.along.jamming_fraction(fraction, root**exponent, exponent)
+        assert found == pytest.approx(0.72, abs=1e-10)
+    assert np.isnan(study.along.jamming_fraction(fraction[:4], root[:4], 1.0))
+
+
 def made_up(study, pair, factor, jamming, scatter=()):
     """Return packings whose energy is factor times 1e9 eps^a, one for each scatter of ln E."""
     a = pair.energy_exponent
