@@ -13,13 +13,15 @@ from pairs import Pair, Sample
 
 from branchcrush.errors import FitError
 from branchcrush.files.tables import Table, read_packing, read_table
-from branchcrush.loading.jamming import jamming_point
 from branchcrush.packings.grains import grain_stress_volume
 from branchcrush.packings.network import Network, state_networks
 from branchcrush.statistics.power_law import power_law_fit
 
 # What is interpolated in its logarithm; all else as it is.
 IN_LOGARITHMS = ("energy_J_per_m3", "stress_Pa")
+# Elastic strain below which a state hardly carries load, and tells no jamming point [-].
+HARDLY_LOADED = 0.005
+_STATES_TO_JAMMING = 5
 # What a level can be of, and where it is taken.
 LEVELS = {
     "elastic_strain": (0.02, 0.04, 0.07),
@@ -83,7 +85,7 @@ def at_level(
     Parameters
     ----------
     abscissa, values : array_like, shape (n,)
-        Along the path; the abscissa above 0.
+        Along the path; where the abscissa is not above 0, or not known, they are left out.
     level : float
     logarithmic : bool
         Whether the quantity is taken in its logarithm.
@@ -100,7 +102,7 @@ def at_level(
     0.0004
     """
     x, y = np.asarray(abscissa, dtype=float), np.asarray(values, dtype=float)
-    known = np.isfinite(x) & np.isfinite(y)
+    known = (x > 0.0) & np.isfinite(x) & np.isfinite(y)
     x, y = x[known], y[known]
     # From the last state backwards, those below all that follow.
     following = np.minimum.accumulate(np.append(x[1:], np.inf)[::-1])[::-1]
@@ -110,6 +112,42 @@ def at_level(
         return float("nan")
     found = np.interp(np.log(level), np.log(x), np.log(y) if logarithmic else y)
     return float(np.exp(found) if logarithmic else found)
+
+
+def jamming_fraction(
+    solid_fraction: ArrayLike, stress: ArrayLike, contact_exponent: float
+) -> float:
+    r"""Return the solid fraction at which the stress of a packing vanishes.
+
+    .. math:: \phi = \phi_J + a\, p^{1/m} + b\, p^{2/m}
+
+    by least squares through the first five states. States of this study are 0.015 in solid
+    fraction apart: `loading.jamming.jamming_point`, made for more, would take four and lets one
+    that hardly carries load decide.
+
+    Parameters
+    ----------
+    solid_fraction, stress : array_like, shape (n,)
+        Of the states that carry load, in their order [-], [Pa].
+    contact_exponent : float
+        m, 1 for linear contacts and 3/2 for Hertz's.
+
+    Returns
+    -------
+    float
+        phi_J [-]; nan with fewer than five states.
+
+    Examples
+    --------
+    >>> stress = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    >>> round(jamming_fraction(0.64 + 0.01 * stress + 0.001 * stress**2, stress, 1.0), 9)
+    0.64
+    """
+    phi = np.asarray(solid_fraction, dtype=float)[:_STATES_TO_JAMMING]
+    root = np.asarray(stress, dtype=float)[: phi.size] ** (1.0 / contact_exponent)
+    if phi.size < _STATES_TO_JAMMING:
+        return float("nan")
+    return float(np.polyfit(root / root[-1], phi, 2)[-1])
 
 
 def sample_paths(
@@ -158,19 +196,15 @@ def _seed_path(folder: Path, pair: Pair, sample: Sample, seed: int) -> SeedPath 
     _, radii, _ = read_packing(folder / "packing.npz")
     tables = (read_table(folder / f"{name}.parquet") for name in ("contacts", "wall_contacts"))
     networks = list(state_networks(radii, *tables, used["state"].tolist()))
-    jamming = _jamming(table, pair, sample)
+    energy = used["elastic_energy_J"] / used["volume_m3"]
+    loaded = used[pair.energy_exponent * energy / used["mean_stress_Pa"] >= HARDLY_LOADED]
+    jamming = jamming_fraction(
+        loaded["solid_fraction"], loaded["mean_stress_Pa"], pair.contact.exponent
+    )
+    # Below it, load was there before the first strain step, and the path does not tell.
+    if jamming < sample.settings["loading"]["approach_solid_fraction"]:
+        jamming = float("nan")
     return SeedPath(seed, _values(used, networks, pair, jamming), networks, jamming)
-
-
-def _jamming(table: Table, pair: Pair, sample: Sample) -> float:
-    """Return phi_J, nan where the path does not tell it: it carried load before its first step."""
-    columns = (table[name] for name in ("solid_fraction", "mean_stress_Pa"))
-    try:
-        point = jamming_point(*columns, pair.contact.exponent, table["carries_load"])
-    except FitError:
-        return float("nan")
-    began = sample.settings["loading"]["approach_solid_fraction"]
-    return point.solid_fraction if point.solid_fraction >= began else float("nan")
 
 
 def _values(

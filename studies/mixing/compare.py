@@ -41,14 +41,8 @@ def main(folder: Path = STUDY, docs: Path = DOCS) -> list[str]:
     tables, missing, untold = _tables(folder, pairs, predictions)
     for name, table in tables.items():
         write_table(docs / "results" / f"{name}.csv", table, provenance())
-    if len(tables["mixing"]):
-        draw(
-            docs / "figures" / "mixing.png",
-            pairs,
-            tables["mixing"],
-            tables["mixing_measured"],
-            predictions,
-        )
+    figure = docs / "figures" / "mixing.png"
+    draw(figure, pairs, tables["mixing"], tables["mixing_measured"], predictions)
     page = docs / "mixing.md"
     blocks = _blocks(pairs, tables, predictions, missing, untold)
     page.write_text(filled(page.read_text(encoding="utf-8"), blocks), encoding="utf-8")

@@ -3,14 +3,13 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter
 from pairs import Pair
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, figure, grid
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, figure, grid, reason
 
 LABELS = {**FORM_LABELS, "moving_jamming_parking": "the same by random parking"}
 # Line of each form.
@@ -46,6 +45,8 @@ def draw(
             _energy(ax, pair, compared, predictions)
         handles = axes.flat[0].get_legend_handles_labels()
         axes.flat[0].figure.legend(*handles, loc="outside lower center", ncols=4)
+        for ax in axes.flat[len(pairs) : -1]:
+            ax.set_axis_off()
         _jamming(axes.flat[-1], pairs, measured, predictions)
 
 
@@ -54,14 +55,8 @@ def _energy(ax: Axes, pair: Pair, compared: pd.DataFrame, predictions: pd.DataFr
     for form, look in LOOKS.items():
         rows = said[said["form"] == form]
         ax.plot(rows["crushing"], rows["stiffness_ratio"], label=LABELS[form], **look)
-    rows = compared[
-        (compared["pair"] == pair.name)
-        & (compared["law"] == pair.law)
-        & (compared["basis"] == "elastic_strain")
-        & (compared["form"] == "moving_jamming")
-    ]
     for level, (marker, face) in SHOWN.items():
-        at = rows[rows["level"] == level]
+        at = _measured_at(compared, pair, level)
         look = {"color": MEASURED, "marker": marker, "mfc": face, "ls": "none", "zorder": 5}
         label = f"DEM, elastic strain {level:g}"
         ax.plot(at["crushing"], at["energy_ratio"], label=label, **look)
@@ -78,10 +73,27 @@ def _energy(ax: Axes, pair: Pair, compared: pd.DataFrame, predictions: pd.DataFr
     ax.set_ylabel(r"$\Psi(C)/\Psi(0)$ at equal elastic strain [-]")
 
 
+def _measured_at(compared: pd.DataFrame, pair: Pair, level: float) -> pd.DataFrame:
+    """Return a row for each mixture of a pair that was measured at an elastic strain."""
+    columns = ["crushing", "energy_ratio", "energy_ratio_low", "energy_ratio_high"]
+    if not len(compared):
+        return pd.DataFrame(columns=columns, dtype=float)
+    return compared[
+        (compared["pair"] == pair.name)
+        & (compared["law"] == pair.law)
+        & (compared["basis"] == "elastic_strain")
+        & (compared["level"] == level)
+        & (compared["form"] == "moving_jamming")
+    ][columns]
+
+
 def _jamming(
     ax: Axes, pairs: Sequence[Pair], measured: pd.DataFrame, predictions: pd.DataFrame
 ) -> None:
     colors = [MEASURED, "#6f9bc4", MODEL, OTHER, "#8a5aa5"]
+    if not len(measured):
+        reason(ax, "nothing was packed yet")
+        return
     said = predictions[predictions["form"] == "moving_jamming"].set_index("sample")
     at = measured[measured["basis"] == "elastic_strain"].drop_duplicates("sample")
     for pair, color in zip(pairs, colors, strict=False):
@@ -100,8 +112,5 @@ def _jamming(
     ax.set_title("jamming point by rods, from the grading alone")
     ax.set_xlabel("C [-]")
     ax.set_ylabel(r"predicted less measured $\phi_J$ [-]")
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend()
+    ax.legend()
     ax.set_xlim(-0.03, 1.03)
-    if not np.isfinite(ax.dataLim.width):
-        ax.set_axis_off()

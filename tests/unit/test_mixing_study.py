@@ -103,6 +103,15 @@ def test_a_state_after_which_the_strain_falls_again_is_left_out(study):
     assert study.along.at_level(*path, 0.03) == pytest.approx(4.0 * 1.5**2)
 
 
+def test_the_jamming_point_is_where_the_stress_vanishes(study):
+    root = np.linspace(1.0, 9.0, 8) * 1e4
+    fraction = 0.72 + 1e-6 * root + 2e-12 * root**2
+    for exponent in (1.0, 1.5):
+        found = study.along.jamming_fraction(fraction, root**exponent, exponent)
+        assert found == pytest.approx(0.72, abs=1e-10)
+    assert np.isnan(study.along.jamming_fraction(fraction[:4], root[:4], 1.0))
+
+
 def made_up(study, pair, factor, jamming, scatter=()):
     """Return packings whose energy is factor times 1e9 eps^a, one for each scatter of ln E."""
     a = pair.energy_exponent
@@ -185,9 +194,9 @@ def test_without_packings_the_page_says_that_they_are_missing(study, tmp_path):
     (tmp_path / "results").mkdir()
     shutil.copy(REPOSITORY / "docs" / "mixing.md", tmp_path)
     missing = study.compare.main(tmp_path, tmp_path)
-    assert len(missing) == 101
+    assert len(missing) == 98
     page = (tmp_path / "mixing.md").read_text(encoding="utf-8")
-    assert "0 of 101 packings are in these tables." in page
+    assert "0 of 98 packings are in these tables." in page
     assert "- held_b-hertz-C0500, seed 3: not packed yet" in page
 
 
