@@ -1,7 +1,7 @@
-"""What a sample may be called: its name names folders of results."""
+"""Names of samples: they name folders of results."""
 
 import re
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BeforeValidator
 
@@ -9,8 +9,8 @@ from branchcrush.config.fields import refusal
 
 # Ends the name of a sample run with twice the strain steps, to judge its convergence.
 REFINED = "-refined"
-_LONGEST = 100
-_NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST - 1}}}"
+_LONGEST_NAME = 100
+_NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
 # Files and folders of results that no sample may be called.
 _TAKEN = (
     "figures",
@@ -27,13 +27,13 @@ _TAKEN = (
 )
 
 
-def _usable_name(name: Any) -> str:
+def _usable_name(name):
     """Return the name of a sample, or refuse one that no folder can have."""
     if not isinstance(name, str):
         raise refusal("a name must be text: put it in quotes")
     if not re.fullmatch(_NAME, name):
         raise refusal(
-            f"a name must be 1 to {_LONGEST} letters, digits, '.', '_' and '-', and begin "
+            f"a name must be 1 to {_LONGEST_NAME} letters, digits, '.', '_' and '-', and begin "
             "with a letter or digit: it names a folder"
         )
     if name.endswith(REFINED):
@@ -44,6 +44,8 @@ def _usable_name(name: Any) -> str:
 
 
 SampleName = Annotated[str, BeforeValidator(_usable_name)]
+
+
 NAMES_SCHEMA = {
     "pattern": f"^{_NAME}$",
     "not": {"anyOf": [{"pattern": f"{REFINED}$"}, {"enum": list(_TAKEN)}]},
