@@ -163,12 +163,12 @@ def grain_sizes(
 ) -> Any:
     r"""Return the design of a sum over the two grains, each a power of its own radius.
 
-    .. math:: \eta = \ln A + \ln(r_1^q + r_2^q)
+    .. math:: \eta = \ln A + \ln(r_1^n + r_2^n)
 
     Parameters
     ----------
     theta : ndarray, shape (2,), optional
-        ln A and q.
+        ln A and n.
     small, large : ndarray, shape (M,), optional
         As for `log_length`.
 

@@ -82,7 +82,7 @@ def local_exponents(
     r"""Return the exponent in each of four equal ranges of branch length.
 
     .. math:: \langle E \rangle \sim l^{n_k}, \qquad
-        \langle E \rangle \sim l^{q_k} \left(\frac{4 r_1 r_2}{l^2}\right)^{p_k}, \qquad
+        \langle E \rangle \sim l^{q_k} \left(\frac{4 r_1 r_2}{l^2}\right)^{t_k}, \qquad
         l_k \le l \le l_{k+1}
 
     A power law would have one n_k. It changes where longer branches join grains that are more

@@ -89,7 +89,7 @@ PREDICTORS = {
         marker="^",
     ),
     "grain_size": Predictor(
-        "A (r1^q + r2^q)",
+        "A (r1^n + r2^n)",
         ("exponent",),
         grain_sizes,
         label="grain size (Einav)",
@@ -97,10 +97,10 @@ PREDICTORS = {
         marker="s",
     ),
     # A mean energy that goes as a power where both radii are scaled alike is A l^q g(r_min/r_max).
-    # By symmetry g is level at equal radii. This one holds l (p = 0) and R* (p = q), and a second
+    # By symmetry g is level at equal radii. This one holds l (t = 0) and R* (t = q), and a second
     # exponent explains no more on seeds left out.
     "length_and_ratio": Predictor(
-        "A l^q (4 r1 r2/l^2)^p",
+        "A l^q (4 r1 r2/l^2)^t",
         ("length_exponent", "ratio_exponent"),
         LinearDesign(lambda s, g: [log_length(s, g), log_equality(s, g)], [3.0, 0.0]),
         label="length and ratio",

@@ -23,7 +23,7 @@ def radius_ratio_table(
     r"""Return g of E = A l^q g(r_min/r_max) in bins of the ratio, measured and as it was fitted.
 
     .. math:: g_k = \frac{\sum_{b \in k} E_b}{A \sum_{b \in k} l_b^{\,q}}, \qquad
-        g = \left(\frac{4 r_1 r_2}{l^2}\right)^p
+        g = \left(\frac{4 r_1 r_2}{l^2}\right)^t
 
     The measured one has no form: of it, only q is fitted. A is such that both are the same in the
     last bin that has branches, of the most equal radii, which so has no interval of its own.
@@ -33,7 +33,7 @@ def radius_ratio_table(
     seeds : list of tuple
         From `energy.predictors.branch_columns`, of each seed.
     length_exponent, ratio_exponent : float
-        q and p of the predictor length_and_ratio [-].
+        q and t of the predictor length_and_ratio [-].
     confidence : float
     resamples : int
 

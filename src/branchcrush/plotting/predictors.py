@@ -118,9 +118,9 @@ def plot_radius_ratio(table: Table, fit: EnergySplitFit, ax: Axes | None = None)
     x = rows["mean_radius_ratio"]
     ax.errorbar(x, value, error, fmt="o", color=MEASURED, label="measured")
     ratio = np.linspace(1e-3, 1.0, 200)
-    p = fitted.parameters["ratio_exponent"].estimate
-    g = np.exp(p * log_equality(np.log(ratio), np.zeros_like(ratio)))
-    text = rf"$(4 r_1 r_2/l^2)^p$, p = {p:.2f}"
+    t = fitted.parameters["ratio_exponent"].estimate
+    g = np.exp(t * log_equality(np.log(ratio), np.zeros_like(ratio)))
+    text = rf"$(4 r_1 r_2/l^2)^t$, t = {t:.2f}"
     ax.plot(ratio, g, color=OTHER, label=text)
     ax.axhline(1.0, color=FAINT, lw=0.8)
     ax.set(

@@ -119,7 +119,7 @@ def test_ratios_of_many_branches_are_drawn_with_the_curve_that_was_fitted(shown)
     ax = predictors.plot_radius_ratio(table, with_parts())
     assert_allclose(shown.points(ax.containers[0][0]), [[0.5, 1.0], [0.6, 1.0]])
     assert_allclose(shown.bars(ax.containers[0]), [[0.5, 1.0], [0.8, 1.0]])
-    ratio, g = shown.line(ax, "$(4 r_1 r_2/l^2)^p$, p = 2.00")
+    ratio, g = shown.line(ax, "$(4 r_1 r_2/l^2)^t$, t = 2.00")
     assert_allclose(g, (4 * ratio / (1 + ratio) ** 2) ** 2)
     assert g[-1] == pytest.approx(1.0)
 

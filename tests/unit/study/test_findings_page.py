@@ -2,11 +2,13 @@
 
 import html
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
+from branchcrush.statistics.intervals import Interval
 from branchcrush.study.findings import finding_row
 from branchcrush.study.pages import render_findings
 
@@ -114,6 +116,17 @@ def test_what_is_not_certified_is_shown_named_and_not_counted(page, sample):
     # In each table it is there all the same, and marked.
     assert text.count("bad (not certified)") == 6
     assert "bad (not certified) 3 3.00 (2.90 to 3.10) 2.50 (2.40 to 2.60)" in text
+
+
+def test_samples_without_a_best_predictor_are_named(page, sample):
+    one_seed = sample("alone")
+    end = one_seed.fit.end
+    nothing = Interval(*3 * [float("nan")])
+    predictors = tuple(replace(each, explained=nothing) for each in end.predictors)
+    fit = replace(one_seed.fit, end=replace(end, predictors=predictors))
+    text = page(sample("a"), replace(one_seed, fit=fit))
+    assert "reduced radius in 1 (a); in 1 (alone) no single one, as two explain the same" in text
+    assert "no single one" not in page(sample("a"))
 
 
 def test_of_certified_samples_nothing_is_said_of_the_others(page, sample):

@@ -237,7 +237,7 @@ def test_why_nothing_is_left_out_stands_in_place_of_what_is_explained(page, fit)
 def test_what_n_is_a_mixture_of_is_said(page, fit):
     html = page({})
     assert "q = 2.60 (2.50 to 2.80); and at equal length unequal grains share less" in html
-    assert "p = 3.20 (3.10 to 3.40), which is 1 for equal radii." in html
+    assert "t = 3.20 (3.10 to 3.40), which is 1 for equal radii." in html
     # 3.111 less 2.6.
     assert "n differs from q: here by +0.51." in html
     assert (
