@@ -12,8 +12,8 @@ from branchcrush.gradings.rods import rod_map
 
 # Probabilities to touch that are tried; with less, six contacts would need eleven places and more.
 _TRIED = np.linspace(0.55, 1.0, 46)
-# A trial begins with contacts as R^3, nearly all on the coarse grains, and with contacts as R^2.
-_BEGINNINGS = (3, 2)
+# A trial begins with contacts as R^3, most of them on the coarse grains, and as R, on the fines.
+_BEGINNINGS = (3, 1)
 # It only has to tell on which side of six contacts it is, so few radii and iterations do.
 _RADII, _ITERATIONS, _WITHIN = 100, 150, 1e-6
 # Then the whole grading settles, from there.
@@ -22,6 +22,8 @@ _MOST, _SETTLED = 2000, 1e-11
 _NONE = 1e-7
 # Trials whose contacts are less apart, over all contacts, lead to one solution.
 _SAME_TRIAL, _SAME = 0.05, 1e-4
+# And from one trial to the next more than this is a jump.
+_JUMP = 0.3
 
 
 class ParkingSolution(NamedTuple):
@@ -91,9 +93,11 @@ def parking_solutions(
     Of some gradings there are two: in one the coarse grains alone carry load and the fines rattle
     among them, in the other the fines carry it too. Random parking does not say which is real; rods
     that push do: first comes the solution whose shares of grains that carry load, by number and by
-    mass, are together nearer to theirs. Contact numbers settle at each p of a scan, from nearly all
-    contacts on the coarse grains and from contacts by surface; where x rises through zero, p is
-    sought. Where x jumps over it there is no stable solution.
+    mass, are together nearer to theirs.
+
+    Contact numbers settle at each p of a scan, from contacts as R^3, most of them on the coarse
+    grains, and as R, on the fines; on either side of a jump they go on from those of the last p.
+    Where x rises through zero, p is sought. Where x jumps over it there is no stable solution.
 
     Parameters
     ----------
@@ -124,11 +128,11 @@ def parking_solutions(
     found: list[tuple[Coordination, float]] = []
     trials = _trials(radius, share, coverage)
     for guess, low, high in trials.rising:
-        if any(_apart(guess, known, share) < _SAME_TRIAL for known, _ in found):
+        if any(_apart(guess, known.contacts, share) < _SAME_TRIAL for known, _ in found):
             continue
         solution = _isostatic(grains, guess, low, high)
         if solution and all(
-            _apart(solution[0].contacts, known, share) > _SAME for known, _ in found
+            _apart(solution[0].contacts, known.contacts, share) > _SAME for known, _ in found
         ):
             found.append(solution)
     if not found:
@@ -164,18 +168,38 @@ def _trials(radius: NDArray, share: NDArray, coverage: float) -> _Trials:
         _ITERATIONS,
         _WITHIN,
     )
-    excess = settled.excess.reshape(len(_BEGINNINGS), -1)
-    rising = [
-        (
-            settled.contacts[cell, beginning * _TRIED.size + number + 1],
-            float(_TRIED[number]),
-            float(_TRIED[number + 1]),
-        )
-        for beginning, number in zip(
-            *np.nonzero((excess[:, :-1] < 0.0) & (excess[:, 1:] >= 0.0)), strict=True
-        )
-    ]
-    return _Trials(rising, bool((excess[:, -1] > 0.0).any()))
+    shape = (len(_BEGINNINGS), _TRIED.size)
+    contacts = settled.contacts.T.reshape(*shape, -1)
+    excess = settled.excess.reshape(shape)
+    rising = []
+    for here, over in zip(contacts, excess, strict=True):
+        for number in range(_TRIED.size - 1):
+            if over[number] < 0.0 <= over[number + 1]:
+                rising.append((here[number + 1], number))
+            if _apart(here[number], here[number + 1], few_share) > _JUMP:
+                # Either side may go on beyond the jump, to where it passes six contacts.
+                rising += _beyond(few, here[number], number, over[number] < 0.0, 1)
+                rising += _beyond(few, here[number + 1], number + 1, over[number + 1] > 0.0, -1)
+    return _Trials(
+        [(guess[cell], float(_TRIED[low]), float(_TRIED[low + 1])) for guess, low in rising],
+        bool((excess[:, -1] > 0.0).any()),
+    )
+
+
+def _beyond(
+    grains: Places, contacts: NDArray, number: int, is_away: bool, step: int
+) -> list[tuple[NDArray, int]]:
+    """Return where contacts that go on beyond a jump pass six for each grain, if they do."""
+    while is_away and 0 <= number + step < _TRIED.size:
+        number += step
+        touching = _TRIED[number : number + 1]
+        settled = grains.settled(contacts[:, None], touching, _ITERATIONS, _WITHIN)
+        before, contacts = contacts, settled.contacts[:, 0]
+        if _apart(before, contacts, grains.share) > _JUMP:
+            break
+        if settled.excess[0] * step > 0.0:
+            return [(contacts, number - 1 if step > 0 else number)]
+    return []
 
 
 def _isostatic(
@@ -206,10 +230,10 @@ def _isostatic(
     return Coordination(last.contacts[:, 0], last.load_bearing[:, 0]), touching
 
 
-def _apart(contacts: NDArray, known: Coordination, share: NDArray) -> float:
+def _apart(contacts: NDArray, others: NDArray, share: NDArray) -> float:
     """Return how far contact numbers are apart, over all of the more."""
-    more = max(share @ contacts, share @ known.contacts)
-    return float(share @ np.abs(contacts - known.contacts) / more)
+    more = max(share @ contacts, share @ others)
+    return float(share @ np.abs(contacts - others) / more)
 
 
 def _named(

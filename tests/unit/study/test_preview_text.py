@@ -203,3 +203,8 @@ def test_a_time_that_is_not_known_says_why():
     text = words(written(plan, notes={"sample0": "the cell is too small"}))
     assert "time not known, since no trial could be made: the cell is too small" in text
     assert text.endswith("all samples together: not known, on 2 cores")
+
+
+def test_text_says_that_no_grain_will_carry_load():
+    plan = plan_of()._replace(carrying=None)
+    assert "load not known: rods that push find no grain of this grading" in words(written(plan))
