@@ -48,7 +48,7 @@ class SamplePage:
         return self.fit.reason is None and self.fit.near_jamming is None
 
 
-def render_report(template: str, samples: Sequence[SamplePage]) -> str:
+def render_report(template: str, samples: Sequence[SamplePage], measured: bool = False) -> str:
     """Return the report as one HTML page with its figures inside.
 
     Parameters
@@ -56,6 +56,8 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
     template : str
         Jinja source.
     samples : list of SamplePage
+    measured : bool
+        Whether there is a page of measured materials to link to.
 
     Returns
     -------
@@ -75,7 +77,8 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
         )
         for page in samples
     ]
-    return page_environment().from_string(template).render(samples=pages, version=__version__)
+    page = page_environment().from_string(template)
+    return page.render(samples=pages, measured=measured, version=__version__)
 
 
 def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:
