@@ -56,8 +56,54 @@ def results(finished):
     return finished.folder / "results"
 
 
-def test_every_file_is_in_the_dictionary(results):
+# Few sizes, so that it is quick: what a laboratory measured needs no packing.
+MEASURED = """
+measured:
+  quick:
+    before: {form: single, size: diameter, unit: mm, value: 1}
+    after:
+      form: mixture
+      basis: mass
+      components:
+        - {weight: 3, grading: {form: single, size: diameter, unit: mm, value: 1}}
+        - {weight: 1, grading: {form: single, size: diameter, unit: mm, value: 0.4}}
+    ultimate_smallest: {size: diameter, unit: mm, value: 0.2}
+    compression:
+      file: curve.csv
+      stress_unit: MPa
+      values: void_ratio
+      initial_void_ratio: 0.6
+      lateral_stress_ratio: 0.5
+      contact: {law: linear, normal_stiffness: 1.0e7}
+"""
+CURVE = "stress [MPa];e\n1;0,59\n2;0,58\n4;0,57\n8;0,48\n16;0,40\n12;0,41\n32;0,36\n"
+
+
+@pytest.fixture(scope="session")
+def measured_results(new_project, tmp_path_factory):
+    study = new_project(tmp_path_factory.mktemp("measured"))
+    study.configure(study.tiny + MEASURED)
+    (study.folder / "curve.csv").write_text(CURVE)
+    run = study.snakemake("results/measured.html")
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert not (study.folder / "results/tiny").exists()
+    return study.folder / "results"
+
+
+@pytest.fixture(params=["results", "measured_results"])
+def any_results(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_a_page_of_measured_materials_needs_no_packing_and_shows_them(measured_results):
+    page = (measured_results / "measured.html").read_text(encoding="utf-8")
+    assert "quick" in page and page.count("data:image/png") == 2
+    assert "1 row of unloading or reloading left out of the fit (line 7)" in page
+
+
+def test_every_file_is_in_the_dictionary(any_results):
     """What is new needs an entry of its own in the stage that it is of."""
+    results = any_results
     for path in files_of(results):
         name = path.relative_to(results).as_posix()
         known = [file.path for file in result_files() if file.matches(name)]
@@ -67,7 +113,8 @@ def test_every_file_is_in_the_dictionary(results):
         )
 
 
-def test_every_column_is_in_the_dictionary_and_none_too_many(results):
+def test_every_column_is_in_the_dictionary_and_none_too_many(any_results):
+    results = any_results
     for path in files_of(results):
         name = path.relative_to(results).as_posix()
         file = next(file for file in result_files() if file.matches(name))
@@ -91,7 +138,8 @@ def test_every_column_is_in_the_dictionary_and_none_too_many(results):
         assert not is_exact or there == told, f"{name}: the dictionary has another order"
 
 
-def test_numbers_are_of_the_type_that_the_dictionary_tells(results):
+def test_numbers_are_of_the_type_that_the_dictionary_tells(any_results):
+    results = any_results
     kinds = {"number": (int, float), "integer": int, "string": str, "boolean": bool}
     for path in results.rglob("*.json"):
         name = path.relative_to(results).as_posix()

@@ -143,6 +143,7 @@ rule report:
         template=REPORT,
         samples=SAMPLES,
         figures=FIGURES,
+        measured=bool(MEASURED),
     script:
         "../scripts/report.py"
 

@@ -27,4 +27,4 @@ with recorded_job(snakemake):
         )
     ]
     template = Path(params.template).read_text(encoding="utf-8")
-    write_text(snakemake.output[0], render_report(template, pages))
+    write_text(snakemake.output[0], render_report(template, pages, params.measured))

@@ -10,9 +10,9 @@ from branchcrush.plotting.gradings import mark_sizes
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, drawn, figure, grid
 
 _GRADINGS = (
-    ("ultimate", "ultimate", "-.", OTHER),
     ("before", "before the test", "-", MEASURED),
     ("after", "after the test", "--", MODEL),
+    ("ultimate", "ultimate", "-.", OTHER),
 )
 _FITS = (
     ("elastic_strain_limit", "elastic strain limit", "-", MODEL),

@@ -62,7 +62,7 @@ class SamplePage:
         return front_rows(self.forms, self.model)
 
 
-def render_report(template: str, samples: Sequence[SamplePage]) -> str:
+def render_report(template: str, samples: Sequence[SamplePage], measured: bool = False) -> str:
     """Return the report as one HTML page with its figures inside.
 
     Parameters
@@ -70,6 +70,8 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
     template : str
         Jinja source.
     samples : list of SamplePage
+    measured : bool
+        Whether there is a page of measured materials to link to.
 
     Returns
     -------
@@ -89,11 +91,8 @@ def render_report(template: str, samples: Sequence[SamplePage]) -> str:
         )
         for page in samples
     ]
-    return (
-        page_environment()
-        .from_string(template)
-        .render(samples=pages, estimators=ESTIMATORS, version=__version__)
-    )
+    page = page_environment().from_string(template)
+    return page.render(samples=pages, estimators=ESTIMATORS, measured=measured, version=__version__)
 
 
 def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:

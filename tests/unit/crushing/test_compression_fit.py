@@ -100,15 +100,15 @@ def test_known_parameters_come_back_from_exact_strains(family, scale, exponent):
 
 def test_known_parameters_lie_in_their_intervals_as_often_as_these_say():
     hits = np.zeros(2)
-    for seed in range(8):
+    for seed in range(6):
         fit = fit_resistance(*made(LIMITS, 0.0125, 1.0, 2e-3, seed), FORM, LAW, LIMITS)
         hits += [
             fit.scale.low <= 0.0125 <= fit.scale.high,
             fit.exponent.low <= 1.0 <= fit.exponent.high,
         ]
         assert fit.residual == pytest.approx(2e-3, rel=0.4)
-    # Of 8 with 95 %, fewer than 6 come by chance once in 170.
-    assert (hits >= 6).all()
+    # Of 6 with 95 %, fewer than 4 come by chance once in 400.
+    assert (hits >= 4).all()
 
 
 def test_intervals_grow_with_the_scatter():

@@ -162,9 +162,9 @@ def page(tmp_path, fit):
         }
         return SamplePage(**(whole | parts))
 
-    def render(*samples):
+    def render(*samples, **keys):
         html = render_report(
-            TEMPLATE.read_text(encoding="utf-8"), [sample(**parts) for parts in samples]
+            TEMPLATE.read_text(encoding="utf-8"), [sample(**parts) for parts in samples], **keys
         )
         assert not re.search(r"\b(nan|None|NaN|Undefined)\b", html)
         assert html.count("<ul") == html.count("</ul>")
@@ -183,6 +183,11 @@ def test_page_shows_exponent_verdict_and_all_figures(page):
     assert "<h3>Certificate: certified</h3>" in html
     assert html.count("data:image/png;base64,") == len(FIGURES)
     assert "No exponent" not in html
+
+
+def test_page_links_to_that_of_measured_materials_where_there_is_one(page):
+    assert "measured.html" not in page({})
+    assert '<a href="measured.html">' in page({}, measured=True)
 
 
 def test_page_of_a_sample_without_data_says_why_and_shows_what_there_is(page):
