@@ -255,9 +255,15 @@ def _rules(runs, settings, study, resamples):
         "params": {"sample": settings, "bins": bins},
     }
     jobs["thermodynamics"] = {
-        "input": {**paths, **fit, **certified},
+        "input": {
+            **paths,
+            **fit,
+            **certified,
+            "numbers": f"results/{name}/contact_numbers.csv",
+        },
         "output": {
             "curves": f"results/{name}/thermodynamics.csv",
+            "forms": f"results/{name}/crushing_forms.csv",
             "summary": f"results/{name}/thermodynamics.json",
         },
         "params": {"sample": settings, "thermodynamics": study.thermodynamics.model_dump()},

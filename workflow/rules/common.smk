@@ -44,6 +44,12 @@ def data_of(settings):
     return [local(file) for file in grading_data_files(settings["grading"])]
 
 
+def history_files(wildcards):
+    """Return the file of the user's history of loads, if there is one."""
+    file = SETTINGS.thermodynamics.history.file
+    return [local(file)] if file else []
+
+
 def of_seeds(file, of, seeds):
     return [f"results/{of}/seed_{seed}/{file}" for seed in seeds]
 

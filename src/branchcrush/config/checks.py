@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from branchcrush.config.build import grading_of, unit_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.gradings import GradingSection
+from branchcrush.config.history import history_loads
 from branchcrush.config.messages import shown
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import REFINED, Config, Sample, checked_config
@@ -77,6 +78,7 @@ def checked_study(
             f"config: samples.{one_line(name)}.{line}"
             for line in sample_problems(section, few_grains=few_grains)
         ]
+    problems += _history_problems(config)
     # A name that is none of a folder was refused as such.
     names = [name for name in samples if isinstance(name, str) and Path(name).name == name]
     problems += [f"config: {line}" for line in _folder_problems(Path(folder), names)]
@@ -122,6 +124,17 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     allowed = few_grains or sample.allow_unrepresentative
     problems = _grain_problems(settings, grading, grains, allowed)
     return problems + _stress_problems(sample, grading)
+
+
+def _history_problems(config):
+    """Return what is wrong with the file of a history."""
+    if config is None:
+        return []
+    try:
+        history_loads(config.thermodynamics.history.model_dump())
+    except GradingError as error:
+        return [f"config: thermodynamics.history.file: {line}" for line in str(error).splitlines()]
+    return []
 
 
 def _list_problems(settings):

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from branchcrush.config.fields import Section, number
+from branchcrush.config.history import History
 from branchcrush.crushing.resistance import LARGEST
 from branchcrush.gradings.rods import GAP, PUBLISHED_GAP
 
@@ -30,6 +31,24 @@ class Thermodynamics(Section):
         GAP,
         description="Gaps beside a rod over its length, f, where the rod map jams; "
         f"{PUBLISHED_GAP:g} was published [-].",
+    )
+    elasticity: Literal["power_law", "linear", "hertz", "pressure_dependent", "measured"] = Field(
+        "power_law",
+        description="Elastic law before crushing, from the energies of the packings: a power of "
+        "the strain, its exponent fitted or that of linear or Hertz's contacts; a modulus that "
+        "grows with pressure; or through every state.",
+    )
+    pressure_exponent: number(least=0, most=0.99) = Field(
+        0.5,
+        description="Exponent q of the modulus K = K_0 (p/p_0)^q, with elasticity: "
+        "pressure_dependent; K_0 is fitted [-].",
+    )
+    reference_pressure: number(above=0, most=1e15, unit="Pa") = Field(
+        1.0e5, description="Pressure p_0 at which the modulus of the elastic law is told [Pa]."
+    )
+    history: History = Field(
+        History(),
+        description="A history of strain or stress of your own, beside the loading and unloading.",
     )
     resistance: Literal["critical_energy", "elastic_strain"] = Field(
         "critical_energy",

@@ -75,9 +75,8 @@ def admissibility(
         told = "Crushing changes nothing in this form: the grading is the ultimate one already."
         return Admissibility((), (), (), True, None, (told,))
     costs = energy_costs(form, elasticity, resistance, largest)
-    by_strain, by_stress = (
-        YieldLine(form, elasticity, resistance, control) for control in ("strain", "stress")
-    )
+    by_strain = YieldLine(form, elasticity, resistance)
+    by_stress = by_strain.under_stress()
     leaps, snaps = (load_leaps(line, largest) for line in (by_strain, by_stress))
     onset, beyond = by_stress.load_at(np.array([0.0, _STEP]))
     gap = _gap(form, elasticity, resistance, largest, by_strain.looks[-1])

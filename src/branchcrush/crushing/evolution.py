@@ -32,6 +32,7 @@ class Event(NamedTuple):
     crushing: float  # C before [-]
     crushing_after: float  # C after; more where it jumped [-]
     dissipated: float  # by a jump [J/m3]
+    load: int = 0  # on the way to which load, counted from 0
 
 
 @dataclass
@@ -107,7 +108,7 @@ def evolve(
         raise ValueError("stresses must not be below 0")
     walk = _Walk(YieldLine(form, elasticity, resistance, control))
     states = []
-    for target in load.tolist():
+    for walk.number, target in enumerate(load.tolist()):
         walk.go(target)
         states.append((walk.strain, walk.crushing, walk.dissipated, walk.compaction, walk.work))
     strain, crushing, dissipated, compaction, work = np.transpose(states)
@@ -132,6 +133,7 @@ class _Walk:
         self.line = line
         self.strain = self.crushing = self.dissipated = self.compaction = self.work = 0.0
         self.events: list[Event] = []
+        self.number = 0  # of the load that it goes to
 
     def go(self, target: float) -> None:
         """Go to a load: elastically, along the yield line, and over its jumps."""
@@ -140,14 +142,17 @@ class _Walk:
             yields_at = float(line.strain_at(self.crushing))
             if self.crushing >= line.looks[-1]:
                 if not self.events or self.events[-1].kind != "lock":
-                    self.events.append(Event("lock", yields_at, self.crushing, self.crushing, 0.0))
+                    self._tell("lock", yields_at)
                 break
             if not self.events:
-                self.events.append(Event("yield", yields_at, 0.0, 0.0, 0.0))
+                self._tell("yield", yields_at)
             self._load_to(yields_at)
             if self._crush(target):
                 break
         self._load_to(float(line.strain_under(target, self.crushing)))
+
+    def _tell(self, kind: str, strain: float) -> None:
+        self.events.append(Event(kind, strain, self.crushing, self.crushing, 0.0, self.number))
 
     def _crush(self, target: float) -> bool:
         """Follow the yield line to a load, or to the end of a smooth piece or over a jump.
@@ -194,7 +199,8 @@ class _Walk:
             to = float(line.looks[-1])
         before, strain, dissipated = self.crushing, self.strain, self.dissipated
         self._follow(to, load)
-        self.events.append(Event("jump", strain, before, to, self.dissipated - dissipated))
+        lost = self.dissipated - dissipated
+        self.events.append(Event("jump", strain, before, to, lost, self.number))
 
     def _follow(self, to: float, load: float | None = None) -> None:
         """Let C grow along the yield line, or at one load, and add up what that takes."""

@@ -1,5 +1,6 @@
 """The load at which each C yields: the line along which crushing goes on."""
 
+from copy import copy
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -58,7 +59,7 @@ class YieldLine:
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
         if knots[-1] == 1.0:  # there a resistance may be infinite
             self.pieces = self.pieces[:-1]
-        self.looks = self._places()
+        self._look()
         end = self._last_yielding()
         if end < self.pieces[-1]:
             # The line is as steep there as a root is.
@@ -69,15 +70,23 @@ class YieldLine:
             self._end_at(end)
         self.loads = self.load_at(self.looks)
 
+    def under_stress(self) -> "YieldLine":
+        """Return the same line of the stresses at which each C yields."""
+        line = copy(self)
+        line.control = "stress"
+        line.loads = line.load_at(line.looks)
+        return line
+
     def _end_at(self, end: float, near: ArrayLike = ()) -> None:
         pieces = np.union1d(self.pieces, near)
         self.pieces = np.append(pieces[pieces < end], end)
-        self.looks = self._places()
+        self._look()
 
-    def _places(self) -> NDArray:
+    def _look(self) -> None:
         inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
         looks = self.pieces[:-1, None] + np.diff(self.pieces)[:, None] * inner
-        return np.append(looks.ravel(), self.pieces[-1])
+        self.looks = np.append(looks.ravel(), self.pieces[-1])
+        self._at_looks: NDArray | None = None
 
     def _last_yielding(self) -> float:
         """Return the C up to which each one yields at some strain."""
@@ -110,6 +119,10 @@ class YieldLine:
 
     def strain_at(self, crushing: ArrayLike) -> NDArray:
         """Return the total strain at which each C yields."""
+        if crushing is self.looks:
+            if self._at_looks is None:
+                self._at_looks = self._strain_at(crushing)
+            return self._at_looks
         if np.ndim(crushing) > 0:
             return self._strain_at(crushing)
         one = np.asarray(crushing).item()

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
+from branchcrush.crushing.elastic_fits import interpolated_elasticity
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, widen
 
@@ -126,14 +127,20 @@ def plot_elastic_law(path: Table, summary: Mapping, ax: Axes | None = None) -> A
         label="each seed",
     )
     line = np.linspace(0.0, 100 * strain.max(), 200)
-    power = summary["elastic_exponent"] + 1
-    law = summary["elastic_modulus_Pa"] / power * (line / 100) ** power
-    label = (
-        rf"$A\,\epsilon^{{m+1}}/(m+1)$, A = {summary['elastic_modulus_Pa'] / 1e6:.0f} MPa,"
-        f"\nm = {summary['elastic_exponent']:.2f}, "
-        rf"$\phi_J$ = {jamming:.3f}, $R^2$ = {summary['elastic_r_squared']:.4f}"
-    )
-    ax.plot(line, law * 1e-6, color=MODEL, label=label)
+    end = rf"$\phi_J$ = {jamming:.3f}, $R^2$ = {summary['elastic_r_squared']:.4f}"
+    if summary["elastic_exponent"] is None:
+        per_volume = path.assign(energy=path["elastic_energy_J"] / path["volume_m3"])
+        means = per_volume.groupby("state")[["solid_fraction", "energy"]].mean()
+        energy = interpolated_elasticity(*means.to_numpy().T, jamming)[0].energy(line / 100)
+        label = f"through the mean of every state,\n{end}"
+    else:
+        power = summary["elastic_exponent"] + 1
+        energy = summary["elastic_modulus_Pa"] / power * (line / 100) ** power
+        label = (
+            rf"$A\,\epsilon^{{m+1}}/(m+1)$, A = {summary['elastic_modulus_Pa'] / 1e6:.0f} MPa,"
+            f"\nm = {summary['elastic_exponent']:.2f}, {end}"
+        )
+    ax.plot(line, energy * 1e-6, color=MODEL, label=label)
     ax.set(
         xlabel=r"volumetric strain from jamming $\epsilon$ [%]",
         ylabel=r"elastic energy $\Psi_0$ [MJ/m³]",

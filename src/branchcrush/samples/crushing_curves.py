@@ -16,7 +16,7 @@ from branchcrush.crushing.energy_ratios import (
 from branchcrush.crushing.evolution import Evolution, evolve
 from branchcrush.crushing.forms import ModelForm
 from branchcrush.crushing.resistance import Resistance
-from branchcrush.crushing.yield_line import YieldLine, compression_line
+from branchcrush.crushing.yield_line import Control, YieldLine, compression_line
 
 FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
 # States on the way in and back, at each fixed C, and places of C.
@@ -57,19 +57,12 @@ def form_curves(
         Of the first.
     """
     line = YieldLine(form, elasticity, resistance)
-    end = _last_strain(line, largest)
+    end, crushing = _end(line, largest)
     loading = np.union1d(np.linspace(0.0, end, _IN + 1), np.minimum(line.loads[:1], end))
-    reached = evolve([end], form, elasticity, resistance)
-    elastic = reached.elastic_strain[-1] * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
-    back = form.total_strain(elastic, reached.crushing[-1])
+    elastic = form.elastic_strain(end, crushing) * np.linspace(1.0, _UNLOADED_TO, _BACK + 1)[1:]
+    back = form.total_strain(elastic, crushing)
     evolution = evolve(np.append(loading, back), form, elasticity, resistance)
-    curves = _states(
-        form, elasticity, resistance, "crushing", evolution.strain, evolution.crushing
-    ).assign(
-        dissipated_J_per_m3=evolution.dissipated,
-        plastic_work_J_per_m3=evolution.compaction,
-        work_J_per_m3=evolution.work,
-    )
+    curves = _evolved(form, elasticity, resistance, "crushing", evolution)
     parts = [curves]
     for crushing in fixed:
         strain = form.total_strain(np.linspace(0.0, largest, _FIXED + 1), crushing)
@@ -77,16 +70,95 @@ def form_curves(
     return pd.concat(parts, ignore_index=True), evolution
 
 
-def _last_strain(line: YieldLine, largest: float) -> float:
-    """Return the total strain at which C ends, or the elastic strain is the largest."""
-    form = line.form
-    elastic = line.resistance.yield_strain(line.looks, form, line.elasticity)
+def history_curves(
+    form: ModelForm,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    quantity: Control,
+    loads: NDArray,
+) -> tuple[pd.DataFrame, Evolution]:
+    """Return what a form says along a history of the user's own, a row for each load.
+
+    Parameters
+    ----------
+    form : ModelForm
+    elasticity : Elasticity
+    resistance : Resistance
+    quantity : {"strain", "stress"}
+    loads : ndarray, shape (loads,)
+        Total strains [-] or mean stresses [Pa], in turn.
+
+    Returns
+    -------
+    curves : DataFrame
+        As `form_curves` has them, `path` "history".
+    evolution : Evolution
+
+    Raises
+    ------
+    ValueError
+        For loads that the elastic law is not meant for, as `evolve`.
+    """
+    evolution = evolve(loads, form, elasticity, resistance, quantity)
+    rows = _evolved(form, elasticity, resistance, "history", evolution)
+    return rows, evolution
+
+
+def events_table(form: ModelForm, elasticity: Elasticity, evolution: Evolution) -> pd.DataFrame:
+    """Return the events of a history, with what each dissipates at once.
+
+    Parameters
+    ----------
+    form : ModelForm
+    elasticity : Elasticity
+    evolution : Evolution
+
+    Returns
+    -------
+    DataFrame
+        Columns of `crushing_events.csv` but form and path.
+    """
+    events = evolution.events
+    strain = np.array([event.strain for event in events])
+    before = np.array([event.crushing for event in events])
+    after = np.array([event.crushing_after for event in events])
+    return pd.DataFrame(
+        {
+            "event": [event.kind for event in events],
+            "load": [event.load for event in events],
+            "volumetric_strain": strain,
+            "elastic_strain": form.elastic_strain(strain, before),
+            "stress_Pa": form.stress(strain, before, elasticity),
+            "crushing": before,
+            "crushing_after": after,
+            "dissipated_J_per_m3": np.array([event.dissipated for event in events]),
+        }
+    )
+
+
+def _end(line: YieldLine, largest: float) -> tuple[float, float]:
+    """Return the total strain at which C ends or the elastic strain is the largest, and about C."""
+    elastic = line.resistance.yield_strain(line.looks, line.form, line.elasticity)
     beyond = np.flatnonzero(~(elastic <= largest))
-    if beyond.size:
-        return float(form.total_strain(largest, line.looks[max(beyond[0] - 1, 0)]))
-    if line.looks[-1] > _COMPLETE:
-        return float(form.total_strain(largest, line.looks[-1]))
-    return float(line.loads.max()) * _BEYOND
+    last = float(line.looks[max(beyond[0] - 1, 0)] if beyond.size else line.looks[-1])
+    if beyond.size or last > _COMPLETE:
+        return float(line.form.total_strain(largest, last)), last
+    return float(line.loads.max()) * _BEYOND, last
+
+
+def _evolved(
+    form: ModelForm,
+    elasticity: Elasticity,
+    resistance: Resistance,
+    path: str,
+    evolution: Evolution,
+) -> pd.DataFrame:
+    """Return what a form says of the states of a history, and where the work went."""
+    return _states(form, elasticity, resistance, path, evolution.strain, evolution.crushing).assign(
+        dissipated_J_per_m3=evolution.dissipated,
+        plastic_work_J_per_m3=evolution.compaction,
+        work_J_per_m3=evolution.work,
+    )
 
 
 def _states(

@@ -16,6 +16,7 @@ from branchcrush.crushing.paper_form import DEGENERATE, admissibility_problem
 from branchcrush.errors import FitError
 from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.statistics.intervals import Interval
 
 # Forms whose energy goes as the branch length to the power n.
 _OF_AN_EXPONENT = ("paper", "density", "measured_contacts")
@@ -111,6 +112,38 @@ def forms_of(
         initial_moment=moments[0],
         ultimate_moment=moments[1],
     )
+
+
+def at_ends_of_exponent(
+    name: str,
+    path: MixingPath,
+    initial: Grading,
+    ultimate: Grading,
+    exponent: Interval,
+    numbers: pd.DataFrame,
+) -> list[ModelForm]:
+    """Return a form at both ends of the interval of n; none where n is not in it, or unknown.
+
+    Parameters
+    ----------
+    name : str
+        Of the form.
+    path : MixingPath
+    initial, ultimate : Grading
+    exponent : Interval
+        n of the energy split [-].
+    numbers : DataFrame
+        `contact_numbers.csv`.
+
+    Returns
+    -------
+    list of ModelForm
+    """
+    if name not in _OF_AN_EXPONENT:
+        return []
+    ends = [end for end in (exponent.low, exponent.high) if np.isfinite(end)]
+    contacts = measured_contacts(numbers)
+    return [crushing_forms(path, initial, ultimate, end, contacts)[name] for end in ends]
 
 
 def measured_contacts(numbers: pd.DataFrame) -> Callable[[NDArray], NDArray] | None:

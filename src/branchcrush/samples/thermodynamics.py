@@ -1,56 +1,37 @@
 """Rule thermodynamics: every form of the crushing model on the elastic energy of a sample."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
-import numpy as np
 import pandas as pd
 
-from branchcrush.crushing.admissibility import admissibility, least_hardening_exponent
-from branchcrush.crushing.curves import TabulatedCurve
-from branchcrush.crushing.forms import ModelForm
-from branchcrush.crushing.paper_form import reference_energy
-from branchcrush.crushing.resistance import CriticalEnergy, ElasticStrainLimit, Resistance
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.errors import FitError
 from branchcrush.files.tables import no_data
 from branchcrush.gradings.curves import ultimate_grading
 from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.samples.crushing_curves import FIXED_CRUSHING, form_curves, form_table
-from branchcrush.samples.elastic_law import MeasuredElasticity, measured_elasticity
+from branchcrush.samples.crushing_model import History, crushing_model
+from branchcrush.samples.elastic_law import (
+    certified_jamming,
+    measured_elasticity,
+)
 from branchcrush.samples.ensemble import certified_loading, on_the_way_in
-from branchcrush.samples.forms_of_sample import FormsOfSample, degenerate, forms_of, untested
-from branchcrush.statistics.intervals import Interval
+from branchcrush.samples.forms_of_sample import (
+    at_ends_of_exponent,
+    forms_of,
+)
+from branchcrush.samples.rearrangement import elastic_law_table, rearrangement_sentence
 
-# The columns of `thermodynamics.csv` but form, some of which only some rows have.
-_CURVES = (
-    "path",
-    "volumetric_strain",
-    "elastic_strain",
-    "crushing",
-    "elastic_energy_J_per_m3",
-    "reference_energy_J_per_m3",
-    "free_energy_J_per_m3",
-    "stress_Pa",
-    "driving_force_J_per_m3",
-    "resistance_J_per_m3",
-    "dissipated_J_per_m3",
-    "plastic_work_J_per_m3",
-    "work_J_per_m3",
-    "tangent_stiffness_Pa",
-)
-# What is told of each form, and of that on the front again at the top.
-_OF_A_FORM = (
-    "admissible",
-    "inadmissible_from",
-    "least_hardening_exponent",
-    "hardens_at_onset",
-    "yield_strain",
-    "yield_stress_Pa",
-    "yields_on_path",
-    "crushing_at_end",
-)
+
+class CrushingResults(NamedTuple):
+    """The result files of the crushing model; a table is a dict where there is none, with why."""
+
+    curves: pd.DataFrame | dict  # thermodynamics.csv
+    forms: pd.DataFrame | dict  # crushing_forms.csv
+    summary: dict  # thermodynamics.json
+    events: pd.DataFrame | dict  # crushing_events.csv
+    elastic: pd.DataFrame | dict  # elastic_law.csv
 
 
 def crushing_results(
@@ -61,7 +42,10 @@ def crushing_results(
     law: LinearContact | HertzContact,
     numbers: pd.DataFrame,
     settings: Mapping[str, Any],
-) -> tuple[pd.DataFrame | dict, pd.DataFrame | dict, dict]:
+    jamming: pd.DataFrame,
+    history: History | None = None,
+    confidence: float = 0.95,
+) -> CrushingResults:
     """Return the crushing model of a sample, in all its forms.
 
     Parameters
@@ -78,13 +62,16 @@ def crushing_results(
         `contact_numbers.csv`.
     settings : mapping
         The keys of the section thermodynamics.
+    jamming : DataFrame
+        `jamming.csv`.
+    history : tuple, optional
+        What loads are, "strain" or "stress", and the loads, in turn [-] or [Pa].
+    confidence : float
+        Of the interval of phi_J [-].
 
     Returns
     -------
-    curves, table : DataFrame
-        `thermodynamics.csv` and `crushing_forms.csv`, or why there are none.
-    summary : dict
-        `thermodynamics.json`.
+    CrushingResults
     """
     try:
         if fit.reason is not None:
@@ -95,157 +82,41 @@ def crushing_results(
             raise FitError(
                 "grains of a single size have no finer grading of their range to crush to"
             )
-        measured = measured_elasticity(on_the_way_in(paths, used))
+        loading = on_the_way_in(paths, used)
+        measured = measured_elasticity(
+            loading,
+            certified_jamming(jamming, used, confidence),
+            kind=settings["elasticity"],
+            pressure_exponent=settings["pressure_exponent"],
+            reference_pressure=settings["reference_pressure"],
+        )
         forms = forms_of(initial, ultimate, fit.exponent.estimate, law, numbers, settings)
     except FitError as error:
         nothing, summary = no_data(error)
-        return nothing, nothing, summary
-    return crushing_model(forms, measured, fit.exponent, fit.reference_length, law, settings)
-
-
-def crushing_model(
-    forms: FormsOfSample,
-    measured: MeasuredElasticity,
-    exponent: Interval,
-    reference_length: float,
-    law: LinearContact | HertzContact,
-    settings: Mapping[str, Any],
-) -> tuple[pd.DataFrame, pd.DataFrame, dict]:
-    """Return the curves of every form, its table, and what is to be known of them.
-
-    Parameters
-    ----------
-    forms : FormsOfSample
-    measured : MeasuredElasticity
-    exponent : Interval
-        n of the energy split.
-    reference_length : float
-        l_r [m]; it cancels in all but psi_r.
-    law : LinearContact or HertzContact
-    settings : mapping
-        The keys of the section thermodynamics.
-
-    Returns
-    -------
-    curves, table : DataFrame
-    summary : dict
-    """
-    resistance = resistance_of(forms, law, settings)
-    curves, tables, told = [], [], {}
-    for name, form in forms.made.items():
-        found = _told(form, measured, resistance, forms.sentences.get(name, []))
-        end = found["inadmissible_from"]
-        fixed = [at for at in FIXED_CRUSHING if end is None or at < end]
-        rows, evolution = form_curves(form, measured.law, resistance, measured.largest, fixed)
-        if name == "paper":
-            energy = rows["elastic_energy_J_per_m3"]
-            rows["reference_energy_J_per_m3"] = reference_energy(
-                energy, forms.initial_moment, exponent.estimate, reference_length
-            )
-        curves.append(rows.assign(form=name))
-        tables.append(
-            form_table(form, measured.law, resistance, measured.jamming, measured.largest).assign(
-                form=name
-            )
+        return CrushingResults(nothing, nothing, summary, nothing, nothing)
+    front, ends = settings["form"], []
+    if front in forms.made:
+        of_exponent = at_ends_of_exponent(
+            front, forms.path, initial, ultimate, fit.exponent, numbers
         )
-        told[name] = {
-            "reason": None,
-            **found,
-            "crushing_at_end": float(evolution.crushing.max()),
-        }
-    nothing = {**dict.fromkeys(told[next(iter(told))]), "snaps": [], "sentences": []}
-    for name, reason in forms.missing.items():
-        told[name] = {**nothing, "reason": reason}
-    front = told[settings["form"]]
-    theta = 1.0 - forms.ultimate_moment / forms.initial_moment
-    summary = {
-        "form": settings["form"],
-        "form_reason": front["reason"],
-        "network": settings["network"],
-        "resistance": settings["resistance"],
-        **exponent.named("exponent"),
-        "theta": theta,
-        "initial_moment": forms.initial_moment,
-        "ultimate_moment": forms.ultimate_moment,
-        "paper_degenerate": degenerate(theta),
-        "untested": untested(forms, law),
-        "reference_length_m": reference_length,
-        **measured.summary(),
-        "rod_map_solid_fraction": float(forms.path.solid_fraction[0]),
-        "critical_energy_J_per_m3": settings["critical_energy"],
-        "hardening_exponent": settings["hardening_exponent"],
-        "elastic_strain": settings["elastic_strain"],
-        "strength_exponent": settings["strength_exponent"],
-        **{key: front[key] for key in _OF_A_FORM},
-        "forms": {name: told[name] for name in forms.names},
-    }
-    return _ordered(curves), _ordered(tables), summary
-
-
-def resistance_of(
-    forms: FormsOfSample, law: LinearContact | HertzContact, settings: Mapping[str, Any]
-) -> Resistance:
-    r"""Return what holds crushing back, as configured.
-
-    .. math:: \epsilon_e = \epsilon_0 \left(\frac{d_Q}{d_{Q0}}\right)^x, \qquad
-        x = 1 - b \text{ or } -2b/3
-
-    Parameters
-    ----------
-    forms : FormsOfSample
-        With d_Q of the network along its path.
-    law : LinearContact or HertzContact
-        With a constant stiffness x is 1 - b, with Hertz's contacts -2b/3.
-    settings : mapping
-        The keys of the section thermodynamics.
-
-    Returns
-    -------
-    Resistance
-    """
-    if settings["resistance"] == "critical_energy":
-        return CriticalEnergy(settings["critical_energy"], settings["hardening_exponent"])
-    strength = settings["strength_exponent"]
-    power = -2.0 * strength / 3.0 if isinstance(law, HertzContact) else 1.0 - strength
-    change = forms.path.contact_diameter**power
-    known = tuple(forms.path.crushing.tolist())
-    return ElasticStrainLimit(
-        settings["elastic_strain"], TabulatedCurve(known, tuple(change.tolist()))
+        ends = [(forms.made[front], law_at_end) for law_at_end in measured.ends]
+        ends += [(form, measured.law) for form in of_exponent]
+    curves, table, summary, events = crushing_model(
+        forms, measured, fit.exponent, fit.reference_length, law, settings, history, ends
     )
+    elastic = elastic_law_table(loading, measured)
+    summary["rearrangement"] = rearrangement_sentence(elastic)
+    summary["bands"] = _bands_sentence(len(measured.ends), len(ends) - len(measured.ends), front)
+    return CrushingResults(curves, table, summary, events, elastic)
 
 
-def _told(
-    form: ModelForm,
-    measured: MeasuredElasticity,
-    resistance: Resistance,
-    sentences: Sequence[str],
-) -> dict[str, Any]:
-    """Return what is told of a form."""
-    found = admissibility(form, measured.law, resistance, measured.largest)
-    strain = float(resistance.yield_strain(0.0, form, measured.law))
-    yields = np.isfinite(strain)
-    least = None
-    if yields and isinstance(resistance, CriticalEnergy):
-        least = least_hardening_exponent(form, measured.law, strain)
-    stays = form.jamming.value(form.knots[-1]) == 1.0
-    return {
-        "theta": 1.0 - float(form.factor.value(1.0)) if stays else None,
-        "admissible": found.admissible,
-        "inadmissible_from": found.costs[0][0] if found.costs else None,
-        "hardens": not found.snaps,
-        "snaps": [snap.crushing for snap in found.snaps],
-        "least_hardening_exponent": least,
-        "hardens_at_onset": found.hardens_at_onset if yields else None,
-        "yield_strain": strain if yields else None,
-        "yield_stress_Pa": float(measured.law.pressure(strain)) if yields else None,
-        "yields_on_path": bool(strain < measured.largest),
-        "sentences": [*found.sentences, *sentences],
-    }
-
-
-def _ordered(parts: Sequence[pd.DataFrame]) -> pd.DataFrame:
-    """Return tables of all forms as one, the name of the form first."""
-    together = pd.concat(parts, ignore_index=True)
-    order = [column for column in _CURVES if column in together]
-    others = [column for column in together if column not in ("form", *order)]
-    return together[["form", *order, *others]]
+def _bands_sentence(of_jamming: int, of_exponent: int, front: str) -> str:
+    """Return what the bands of the form on the front hold."""
+    names = [name for name, ends in (("φ_J", of_jamming), ("n", of_exponent)) if ends > 0]
+    if not names:
+        return "The curves have no bands: no interval of φ_J or n is known that they rest on."
+    without = "" if of_exponent else f"; n is not in the form {front}, or its interval not known"
+    return (
+        f"Bands are the least and the largest of the curves computed again at both ends of the "
+        f"interval of {' and of '.join(names)}, one at a time{without}."
+    )

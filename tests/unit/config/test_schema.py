@@ -160,5 +160,5 @@ def test_every_key_and_every_word_that_one_may_hold_is_documented():
     assert {"alpha", "poisson_ratio", "weight", "mean_stress", "dpi"} <= keys
     assert {"weibull", "mixture", "um", "diameter", "hertz", "fine", "mass_quantiles"} <= words
     code = " ".join(re.findall(r"`([^`]+)`", re.sub(r"```\w*", "`", page)))
-    named = set(re.findall(r"\w+", code))
+    named = set(re.findall(r"\w+|-", code))
     assert not (keys | words) - named

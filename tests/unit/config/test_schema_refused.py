@@ -98,6 +98,12 @@ def message_of(raw):
         ("thermodynamics.ultimate_alpha", 3, "3", "below 3"),
         ("thermodynamics.critical_energy", infinity, "inf", "J/m3"),
         ("thermodynamics.critical_energy", -1, "-1 J/m3", "J/m3"),
+        ("thermodynamics.form", "papers", "'papers'", "'moving_jamming', 'paper'"),
+        ("thermodynamics.network", "rod", "'rod'", "'rods' or 'parking'"),
+        ("thermodynamics.rod_gap", 0, "0", "above 0 and at most 10"),
+        ("thermodynamics.resistance", "strain", "'strain'", "'critical_energy' or"),
+        ("thermodynamics.elastic_strain", 0.5, "0.5", "above 0 and below 0.5"),
+        ("thermodynamics.strength_exponent", -1, "-1", "from 0 to 10"),
         ("figures.dpi", 5, "5 dots per inch", "from 50 to 1200 dots per inch"),
     ],
 )
@@ -177,6 +183,7 @@ def test_configuration_without_samples_is_refused():
         ("enrgy_split", "energy_split"),
         ("energy_split.bin", "bins"),
         ("thermodynamics.ultimate_alfa", "ultimate_alpha"),
+        ("thermodynamics.netwrok", "network"),
         ("figures.dpis", "dpi"),
     ],
 )

@@ -12,8 +12,8 @@ from branchcrush.crushing.yield_line import compression_line
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import mixture, single
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.samples.crushing_model import resistance_of
 from branchcrush.samples.forms_of_sample import degenerate, forms_of, untested
-from branchcrush.samples.thermodynamics import resistance_of
 
 NO_NUMBERS = pd.DataFrame({"reason": ["no contacts"]})
 LINEAR, HERTZ = LinearContact(1e6), HertzContact(70e9)

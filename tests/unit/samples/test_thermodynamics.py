@@ -12,9 +12,11 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import single
 from branchcrush.packings.contact_laws import LinearContact
+from branchcrush.samples import thermodynamics
+from branchcrush.samples.crushing_model import crushing_model
 from branchcrush.samples.elastic_law import measured_elasticity
 from branchcrush.samples.forms_of_sample import forms_of
-from branchcrush.samples.thermodynamics import crushing_model, crushing_results
+from branchcrush.samples.thermodynamics import crushing_results
 from branchcrush.statistics.intervals import Interval
 
 JAMMING, MODULUS, EXPONENT, LAST = 0.64, 300e6, 1.5, 0.74
@@ -27,6 +29,7 @@ FIT = replace(
     reference_length=9e-4,
 )
 NUMBERS = pd.DataFrame({"state": 1, "mean_radius_m": [1e-4, 1e-3], "contact_number": [6.0, 6.0]})
+HISTORY = ("stress", np.array([1e5, 2e6, 0.0, 5e6]))
 FORMS = ["moving_jamming", "paper", "density", "measured_contacts", "einav", "tengattini"]
 
 
@@ -43,6 +46,8 @@ def path_to(last):
             "solid_fraction": phi,
             "volume_m3": volume,
             "elastic_energy_J": energy * volume * phi / JAMMING,
+            "mean_stress_Pa": MODULUS * strain**EXPONENT,
+            "work_J": energy * volume * phi / JAMMING,
             "carries_load": energy > 0,
         }
     )
@@ -59,12 +64,10 @@ def results(fit=FIT, initial=INITIAL):
         [path.assign(seed=k, certified=True) for k, path in enumerate(paths)], ignore_index=True
     )
     certificate.loc[certificate.index[-1], "certified"] = False
-    return crushing_results(fit, certificate, paths, initial, LAW, NUMBERS, settings())
-
-
-@pytest.fixture(scope="module")
-def made():
-    return results()
+    jamming = pd.DataFrame({"jamming_solid_fraction_loading": [JAMMING, JAMMING]})
+    return crushing_results(
+        fit, certificate, paths, initial, LAW, NUMBERS, settings(), jamming, HISTORY
+    )
 
 
 @pytest.fixture(scope="module")
@@ -73,9 +76,16 @@ def forms():
     return forms_of(INITIAL, ultimate, 3.0, LAW, NUMBERS, settings())
 
 
+@pytest.fixture(scope="module")
+def made(forms):
+    with pytest.MonkeyPatch.context() as patch:  # they take most of the time
+        patch.setattr(thermodynamics, "forms_of", lambda *asked: forms)
+        return results()
+
+
 def model(forms, **keys):
     measured = measured_elasticity([path_to(LAST)])
-    return crushing_model(forms, measured, FIT.exponent, 9e-4, LAW, settings(**keys))
+    return crushing_model(forms, measured, FIT.exponent, 9e-4, LAW, settings(**keys))[:3]
 
 
 @pytest.fixture(scope="module")
@@ -89,14 +99,14 @@ def of(table, form, path=None):
 
 
 def test_every_form_is_there_in_its_order(made):
-    curves, table, summary = made
+    curves, table, summary = made[:3]
     assert list(summary["forms"]) == FORMS
     assert list(curves["form"].unique()) == list(table["form"].unique()) == FORMS
     assert all(form["reason"] is None for form in summary["forms"].values())
 
 
 def test_work_is_stored_or_dissipated_and_crushing_never_heals(made, strained):
-    for curves, _, _ in (made, strained):
+    for curves in (made[0], strained[0]):
         for _, path in curves[curves["path"] == "crushing"].groupby("form"):
             kept = path["free_energy_J_per_m3"] + path["dissipated_J_per_m3"]
             most = path["work_J_per_m3"].max()
@@ -117,7 +127,7 @@ CUBE_OF_LENGTH = 2 * moment(3) + 6 * moment(1) * moment(2)
 
 
 def test_the_law_is_that_of_the_certified_seeds_alone(made):
-    _, _, summary = made
+    _, _, summary = made[:3]
     assert_allclose(summary["elastic_modulus_Pa"], MODULUS, rtol=1e-3)
     assert_allclose(summary["largest_strain"], LARGEST, rtol=1e-5)
     assert_allclose(summary["initial_moment"], CUBE_OF_LENGTH, rtol=1e-9)
@@ -126,7 +136,7 @@ def test_the_law_is_that_of_the_certified_seeds_alone(made):
 
 
 def test_reference_energy_is_that_of_the_initial_grading_in_the_paper_form(made):
-    curves, _, _ = made
+    curves, _, _ = made[:3]
     paper = of(curves, "paper")
     expected = paper["elastic_energy_J_per_m3"] * 9e-4**3 / CUBE_OF_LENGTH
     assert_allclose(paper["reference_energy_J_per_m3"], expected, rtol=1e-9)
@@ -134,7 +144,7 @@ def test_reference_energy_is_that_of_the_initial_grading_in_the_paper_form(made)
 
 
 def test_stress_at_fixed_crushing_is_what_is_left_of_the_elastic_one(made):
-    curves, _, summary = made
+    curves, _, summary = made[:3]
     fixed = of(curves, "paper", "fixed")
     assert sorted(fixed["crushing"].unique()) == [0.0, 0.25, 0.5, 0.75, 1.0]
     strain, left = fixed["volumetric_strain"], 1 - summary["theta"] * fixed["crushing"]
@@ -147,7 +157,7 @@ def test_stress_at_fixed_crushing_is_what_is_left_of_the_elastic_one(made):
 
 
 def test_crushing_begins_where_the_released_energy_meets_the_critical_one(made):
-    curves, _, summary = made
+    curves, _, summary = made[:3]
     paper = summary["forms"]["paper"]
     # theta A eps^(m+1)/(m+1) = E_c0.
     strain = (2.5 * 2e5 / (summary["theta"] * MODULUS)) ** (1 / 2.5)
@@ -177,7 +187,7 @@ def test_a_softer_resistance_than_the_elastic_law_needs_snaps(forms):
 
 
 def test_the_moving_jamming_point_is_on_the_front_and_ends_where_mixing_does(made):
-    curves, table, summary = made
+    curves, table, summary = made[:3]
     moving = summary["forms"]["moving_jamming"]
     assert (summary["form"], summary["form_reason"]) == ("moving_jamming", None)
     assert summary["inadmissible_from"] == moving["inadmissible_from"]
@@ -206,7 +216,7 @@ def test_a_limit_of_elastic_strain_is_held_and_gives_the_compression_line(strain
 
 
 def test_energies_beside_each_other(made):
-    _, table, _ = made
+    _, table, _ = made[:3]
     for form in FORMS:
         rows = of(table, form)
         ratio = rows["stiffness_ratio"]
@@ -217,7 +227,7 @@ def test_energies_beside_each_other(made):
 
 
 def test_equal_contacts_of_all_grains_are_no_contacts(made):
-    _, table, _ = made
+    _, table, _ = made[:3]
     with_contacts = of(table, "measured_contacts")["stiffness_ratio"]
     assert_allclose(with_contacts, of(table, "density")["stiffness_ratio"], rtol=1e-2)
 
@@ -254,6 +264,33 @@ def test_a_form_on_the_front_that_is_not_there_says_why_and_no_other_is_lost(for
     ],
 )
 def test_without_data_there_is_a_reason(fit, initial, why):
-    curves, table, summary = results(fit=fit, initial=initial)
+    curves, table, summary = results(fit=fit, initial=initial)[:3]
     assert curves == table and list(curves) == list(summary) == ["reason"]
     assert summary["reason"].startswith(why)
+
+
+# --- own histories, bands, and what rearrangement takes -------------------------------------------
+
+
+def test_every_form_follows_the_history_of_the_user(made):
+    for name in FORMS:
+        rows = of(made.curves, name, "history")
+        assert_allclose(rows["stress_Pa"], HISTORY[1], rtol=1e-9, atol=1e-3)
+        kept = rows["free_energy_J_per_m3"] + rows["dissipated_J_per_m3"]
+        most = rows["work_J_per_m3"].max()
+        assert_allclose(rows["work_J_per_m3"], kept, atol=1e-10 * most)
+    assert set(made.events["path"]) == {"crushing", "history"}
+    assert set(made.events["event"]) <= {"yield", "jump", "lock"}
+
+
+def test_one_packing_has_no_bands_and_says_so(made):
+    assert made.curves.filter(regex="_(low|high)_").isna().all(axis=None)
+    # n has an interval, but the form on the front does not hold it.
+    assert made.summary["bands"].startswith("The curves have no bands")
+
+
+def test_nothing_is_taken_where_the_stress_is_that_of_the_law(made):
+    assert_allclose(made.elastic["law_stress_Pa"], made.elastic["mean_stress_Pa"], rtol=1e-6)
+    assert_allclose(made.elastic["dissipated_J_per_m3"], 0.0, atol=1e-3)
+    assert "gives back dΨ₀/dε, 100 %" in made.summary["rearrangement"]
+    assert made.summary["jamming_solid_fraction"] == JAMMING
