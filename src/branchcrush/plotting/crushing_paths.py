@@ -59,9 +59,13 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         strain, stress = 100 * rows["volumetric_strain"], rows["stress_Pa"] / 1e6
         ax.plot(strain, stress, color=color, lw=0.8, label=f"C = {crushing:g}")
     path = _path(curves, form)
-    ax.plot(
-        100 * path["volumetric_strain"], path["stress_Pa"] / 1e6, "k", lw=1.6, label="C evolves"
-    )
+    strain = 100 * path["volumetric_strain"]
+    ax.plot(strain, path["stress_Pa"] / 1e6, "k", lw=1.6, label="C evolves")
+    if "stress_low_Pa" in path and path["stress_low_Pa"].notna().any():
+        # Of the way in alone: on the way back a band would lie over its own.
+        way_in = slice(0, int(path["volumetric_strain"].to_numpy().argmax()) + 1)
+        low, high = (path[f"stress_{end}_Pa"][way_in] / 1e6 for end in ("low", "high"))
+        ax.fill_between(strain[way_in], low, high, color=FAINT, alpha=0.4, lw=0, label="its band")
     own = curves[(curves["form"] == form) & (curves["path"] == "history")]
     if len(own):
         strain, stress = 100 * own["volumetric_strain"], own["stress_Pa"] / 1e6

@@ -28,6 +28,15 @@ def test_stress_is_that_of_the_front_with_c_evolving_and_held(shown):
     assert len(ax.lines) == 6
 
 
+def test_the_band_of_the_stress_is_that_of_the_way_in(shown):
+    table = curves_table()
+    table["stress_low_Pa"], table["stress_high_Pa"] = table["stress_Pa"] / 2, table["stress_Pa"] * 2
+    ax = crushing_paths.plot_stress(table, model("paper"))
+    (band,) = ax.collections
+    assert_allclose(shown.band(band), [[0.0, 10.0], [0.0, 2.0], [0.0, 8.0]])
+    assert "its band" in shown.texts(ax)
+
+
 def test_a_history_of_the_configuration_is_drawn_beside(shown):
     table = curves_table()
     own = table[(table["path"] == "crushing") & (table["form"] == "moving_jamming")]

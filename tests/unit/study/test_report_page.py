@@ -407,6 +407,12 @@ def test_a_degenerate_form_is_said_on_the_front_and_in_the_section(page):
     assert sentence not in page({})
 
 
+def test_the_elastic_law_says_how_it_was_found_and_what_it_leaves_out(page):
+    said = {"elasticity_sentences": ["One.", "Two."], "rearrangement": "Three.", "bands": None}
+    assert "<p><b>Elastic law</b>: One. Two. Three.</p>" in page({"model": {**MODEL, **said}})
+    assert "Elastic law</b>" not in page({})
+
+
 def test_untested_size_ratios_are_said(page):
     html = page({"model": {**MODEL, "untested": "a ratio of 200 is untested."}})
     assert '<p class="note">a ratio of 200 is untested.</p>' in html
