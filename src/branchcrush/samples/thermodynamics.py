@@ -118,5 +118,5 @@ def _bands_sentence(of_jamming: int, of_exponent: int, front: str) -> str:
     without = "" if of_exponent else f"; n is not in the form {front}, or its interval not known"
     return (
         f"Bands are the least and the largest of the curves computed again at both ends of the "
-        f"interval of {' and of '.join(names)}, one at a time{without}."
+        f"interval of {' and of '.join(names)}, one at a time{without}; they are empty where a load is too large for the law at an end."
     )
