@@ -117,6 +117,7 @@ def _bands_sentence(of_jamming: int, of_exponent: int, front: str) -> str:
         return "The curves have no bands: no interval of φ_J or n is known that they rest on."
     without = "" if of_exponent else f"; n is not in the form {front}, or its interval not known"
     return (
-        f"Bands are the least and the largest of the curves computed again at both ends of the "
-        f"interval of {' and of '.join(names)}, one at a time{without}."
+        "Bands are the least and the largest of the curves computed again at both ends of the "
+        f"interval of {' and of '.join(names)}, one at a time{without}; "
+        "they are empty where a load is too large for the law at an end."
     )
