@@ -166,7 +166,7 @@ def test_a_wrong_key_of_a_sample(study, path, typed, expected):
             "5",
             " = 5 dots per inch: must be a whole number from 50 to 1200 dots per inch",
         ),
-        ("plots", "{}", ": unknown key; allowed: samples, energy_split, thermodynamics, figures"),
+        ("plots", "{}", ": unknown key; allowed: samples, energy_split, thermodynamics, measured"),
         ("samples", "{}", " = {}: must hold at least one sample"),
         ("samples", "[tiny]", f" = ['tiny']: {SECTION}"),
         ("samples/empty", "", f" = nothing: {SECTION}"),

@@ -223,7 +223,9 @@ def test_unknown_key_with_no_near_one_is_answered_with_all_that_are_allowed():
         "samples.mine.contact.viscosity: unknown key; allowed: law, normal_stiffness"
     )
     message = message_of({"samples": {"mine": SAMPLE}, "plots": {}})
-    assert message.endswith("allowed: samples, energy_split, thermodynamics, figures, keep_dumps")
+    assert message.endswith(
+        "allowed: samples, energy_split, thermodynamics, measured, figures, keep_dumps"
+    )
 
 
 def test_sizes_out_of_order_are_refused_with_both():
