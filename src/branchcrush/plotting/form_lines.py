@@ -196,8 +196,8 @@ def extrapolated(forms: Table, model: Mapping) -> list[str]:
     >>> import pandas as pd
     >>> strains = {"crushing": [0.0, 0.5], "yield_elastic_strain": [0.01, 0.2]}
     >>> forms = pd.DataFrame(strains).assign(form="paper")
-    >>> extrapolated(forms, {"form": "paper", "largest_strain": 0.1})
-    ['From C = 0.50 on the front form yields at elastic strains above 10 %, beyond the measured law.']
+    >>> print(*extrapolated(forms, {"form": "paper", "largest_strain": 0.1}))
+    From C = 0.50 on the front form yields at elastic strains above 10 %, beyond the measured law.
     """
     rows = forms[forms["form"] == model["form"]]
     beyond = rows.loc[rows["yield_elastic_strain"] > model["largest_strain"], "crushing"]
