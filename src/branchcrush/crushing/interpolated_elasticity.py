@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 # The least number of states that a measured law goes through.
 FEWEST_KNOTS = 3
+# Exponent of the energy next to jamming: at 1 the pressure would begin with a step.
+_LEAST_POWER = 1.5
 # Places between two states at which the pressure must rise.
 _LOOKS = 65
 _ONLY_ROUNDING = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
@@ -35,7 +37,8 @@ class InterpolatedElasticity:
     Raises
     ------
     ValueError
-        For other than three or more such states, or where p_0 would fall between them.
+        For other than three or more such states, where p_0 would fall between them, or where the
+        energy goes as less than the power 1.5 of the strain at the first one.
 
     Examples
     --------
@@ -67,11 +70,16 @@ class InterpolatedElasticity:
             )
         places = np.linspace(self._ends[:-1], self._ends[1:], _LOOKS)
         falls = (self._rise(places) < 0).any(axis=0)
-        if self._slope(self._ends[0]) <= 1 or falls.any():
-            first = 0 if self._slope(self._ends[0]) <= 1 else int(np.argmax(falls))
+        if falls.any():
             raise ValueError(
                 "the pressure that the energies mean would not rise from a strain of "
-                f"{self.strain[first]:.4g} on"
+                f"{self.strain[int(np.argmax(falls))]:.4g} on"
+            )
+        power = float(self._slope(self._ends[0]))
+        if power < _LEAST_POWER:
+            raise ValueError(
+                f"the energies mean the power {power:.2f} of the strain next to jamming, and need "
+                f"{_LEAST_POWER:g} for a pressure that begins at nothing"
             )
 
     def pressure(self, strain: ArrayLike) -> NDArray:

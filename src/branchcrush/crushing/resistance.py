@@ -154,12 +154,15 @@ class CriticalEnergy:
         before = np.array([steps[first - 1], looks[rows, first - 1]])
         after = np.array([steps[first], looks[rows, first]])
         self._look_between(excess, at, steps, looks, before, after)
-        yields = after[1] > 0.0
+        # What yields at once has no ends to search between.
+        at_once = looks[:, 0] > 0.0
+        yields = (after[1] > 0.0) & ~at_once
         result = np.full(at.size, np.inf)
         if yields.any():
             ends = [(np.log(end[0, yields]), end[1, yields]) for end in (before, after)]
             roots = _roots(lambda logs: excess(np.exp(logs), at[yields]), *ends)
             result[yields] = np.exp(roots)
+        result[at_once] = _LEAST
         return result.reshape(crushing.shape)
 
     @staticmethod

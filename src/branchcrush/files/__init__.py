@@ -15,6 +15,7 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
   `header_words` are a table's before it is known how it is to be read.
 - `sieve_tables` makes a curve of a sieving, `sieve_readings` holds its words and numbers against
   what is declared; `channel_tables`, `channel_edges` and `channel_readings` are the like.
+- `histories` reads a user's strains or stresses in turn.
 - `dictionary` tells what every file of the results holds, each column and key with its type, unit
   and meaning, from the TOML files in `meanings`; `datapackage` makes `datapackage.json` of it.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed

@@ -17,7 +17,9 @@ needs the contacts of many seeds is given what reads those of one, and holds no 
     The energy split function and its exponent, at the end and along the loading.
 `sharing`
     How energy, force and stress are shared by grains and branches.
-`thermodynamics`, `elastic_law`, `forms_of_sample`, `crushing_curves`
+`elastic_law`, `rearrangement`
+    The elastic law before crushing, and what of the packings' stress it does not give back.
+`thermodynamics`, `crushing_model`, `forms_of_sample`, `crushing_curves`, `crushing_bands`
     The crushing model in all its forms, on the elastic energy that was measured.
 `grading`
     The grading that the seeds realise, beside the target.

@@ -236,6 +236,7 @@ def _of_interpolation(law: Elasticity, left_out: int, largest: float) -> list[st
     if left_out:
         states = "state" if left_out == 1 else "states"
         sentences.append(
-            f"{left_out} {states} next to jamming left out: through them the pressure would fall."
+            f"{left_out} {states} next to jamming left out: through them the pressure would "
+            "fall, or begin with a step."
         )
     return sentences

@@ -149,6 +149,14 @@ def test_crushing_locks_where_the_driving_force_stays_below_the_resistance(contr
     assert peak == pytest.approx(0.0, abs=1e-8)
 
 
+def test_what_yields_at_once_balances_too():
+    # The driving force is above the resistance at every strain that is looked at.
+    law, resistance = PowerLawElasticity(1e9, 0.1), CriticalEnergy(1.0, 2.0)
+    path = evolve([0.01, 0.0, 0.05], MOVING, law, resistance)
+    assert path.events[0].strain == pytest.approx(1e-8, rel=1e-6)
+    np.testing.assert_allclose(path.work, path.stored + path.dissipated, rtol=1e-10)
+
+
 DEM = InterpolatedElasticity(
     (0.0143, 0.0334, 0.0523, 0.0709, 0.1074, 0.1429, 0.1774, 0.1944),
     (9.60e3, 5.33e4, 1.42e5, 2.86e5, 7.66e5, 1.543e6, 2.625e6, 3.307e6),

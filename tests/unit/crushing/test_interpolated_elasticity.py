@@ -104,6 +104,12 @@ def test_other_states_are_refused(strain, energy):
         InterpolatedElasticity(strain, energy)
 
 
+def test_a_pressure_that_begins_with_a_step_is_refused():
+    strain = np.array([0.1, 0.2, 0.3])
+    with pytest.raises(ValueError, match=r"mean the power 1\.20 of the strain next to jamming"):
+        InterpolatedElasticity(tuple(strain.tolist()), tuple((strain**1.2).tolist()))
+
+
 @pytest.mark.parametrize(
     ("energy", "where"),
     [
