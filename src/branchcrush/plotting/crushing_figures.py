@@ -16,6 +16,7 @@ from branchcrush.files.tables import Table
 from branchcrush.plotting import crushing, crushing_paths
 from branchcrush.plotting.form_lines import (
     beside_the_paper,
+    extrapolated,
     form_handles,
     form_notes,
     plain_decades,
@@ -53,7 +54,8 @@ def draw_crushing_model(
         if why is None:
             shown = beside_the_paper(model)
             handles = [*form_handles(model, shown), panels[0].lines[-1]]
-            _explain(panels[0].figure, handles, [*form_notes(model, shown), *warnings(model)])
+            notes = [*form_notes(model, shown), *extrapolated(forms, model), *warnings(model)]
+            _explain(panels[0].figure, handles, notes)
     return panels[0].figure
 
 
@@ -115,7 +117,8 @@ def draw_crushing_yield(
         drawn(crushing_paths.plot_crushing, why, curves, model, ax=panels[2])
         if why is None:
             shown = set(forms["form"])
-            _explain(panels[0].figure, form_handles(model, shown), form_notes(model, shown))
+            notes = [*form_notes(model, shown), *extrapolated(forms, model)]
+            _explain(panels[0].figure, form_handles(model, shown), notes)
     return panels[0].figure
 
 

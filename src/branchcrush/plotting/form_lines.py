@@ -176,6 +176,39 @@ def warnings(model: Mapping) -> list[str]:
     return [f"{sentence.split('. ')[0].rstrip('.')}." for sentence in said if sentence]
 
 
+def extrapolated(forms: Table, model: Mapping) -> list[str]:
+    """Return in words from which C on the form on the front yields beyond the measured strains.
+
+    Parameters
+    ----------
+    forms : DataFrame
+        `crushing_forms.csv`.
+    model : mapping
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    list of str
+        A sentence, or none.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> strains = {"crushing": [0.0, 0.5], "yield_elastic_strain": [0.01, 0.2]}
+    >>> forms = pd.DataFrame(strains).assign(form="paper")
+    >>> print(*extrapolated(forms, {"form": "paper", "largest_strain": 0.1}))
+    From C = 0.50 on the front form yields at elastic strains above 10 %, beyond the measured law.
+    """
+    rows = forms[forms["form"] == model["form"]]
+    beyond = rows.loc[rows["yield_elastic_strain"] > model["largest_strain"], "crushing"]
+    if beyond.empty:
+        return []
+    return [
+        f"From C = {beyond.min():.2f} on the front form yields at elastic strains above "
+        f"{100 * model['largest_strain']:.2g} %, beyond the measured law."
+    ]
+
+
 def plain_decades(axis: Axis) -> None:
     """Write the marks of a logarithmic axis as plain numbers, more of them on a short one."""
     low, high = sorted(axis.get_view_interval())

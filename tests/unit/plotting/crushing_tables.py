@@ -33,6 +33,7 @@ def forms_table():
             part[ratio] = 1.0 + k * column * CRUSHING
         part["driving_force_over_pressure"] = 0.3 * k * (0.6 - CRUSHING)
         part["yield_stress_Pa"] = k * 1e6 * 10.0**CRUSHING
+        part["yield_elastic_strain"] = 0.01 * k
         part["void_ratio"] = 0.7 - 0.1 * k * CRUSHING
         parts.append(part)
     return pd.concat(parts, ignore_index=True)
@@ -64,4 +65,9 @@ def model(form="moving_jamming", **others):
     }
     forms["moving_jamming"] |= {"inadmissible_from": 0.6, "admissible": False}
     forms["density"] |= {"inadmissible_from": 0.0, "admissible": False}
-    return {"form": form, "forms": forms, "jamming_solid_fraction": 0.6} | others
+    return {
+        "form": form,
+        "forms": forms,
+        "jamming_solid_fraction": 0.6,
+        "largest_strain": 0.1,
+    } | others

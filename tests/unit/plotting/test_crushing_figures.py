@@ -6,7 +6,7 @@ import pytest
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.plotting import crushing
 from branchcrush.plotting import crushing_figures as figures
-from branchcrush.plotting.form_lines import form_handles, form_notes, warnings
+from branchcrush.plotting.form_lines import extrapolated, form_handles, form_notes, warnings
 from tests.unit.plotting.crushing_tables import FORMS, curves_table, forms_table, model
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -82,6 +82,13 @@ def test_jumps_under_stress_are_in_the_legend_of_the_figures_that_mark_them():
     assert labels[-2:] == ["not admissible", "under stress C jumps"]
     assert len(form_handles(snapping, FORMS, snaps=False)) == len(labels) - 1
     assert len(form_handles(snapping, ["paper"])) == 1
+
+
+def test_yield_beyond_the_measured_strains_is_said_of_the_front_alone():
+    assert extrapolated(forms_table(), model("einav")) == []
+    (text,) = extrapolated(forms_table(), model("einav", largest_strain=0.035))
+    assert text.startswith("From C = 0.00 on the front form yields at elastic strains above 3.5 %")
+    assert extrapolated(forms_table(), model("density", largest_strain=0.035)) == []
 
 
 def test_a_warning_is_its_first_sentence_and_none_is_none():

@@ -36,6 +36,7 @@ MODEL = {
     "yield_stress_Pa": 6.1e6,
     "yields_on_path": True,
     "hardens_at_onset": True,
+    "largest_strain": 0.115,
     "forms": {
         "moving_jamming": FORM
         | {
@@ -57,6 +58,7 @@ FORMS = pd.DataFrame(
         "stiffness_ratio": [1.0, 0.1, 1.0, 1.15, 3.83, 4.0],
         "driving_force_over_pressure": [0.006, 0.006, 0.41, 0.4, 0.04, -0.01],
         "yield_stress_Pa": [1e6, 2e6, 3e6, 4e6, float("nan"), float("nan")],
+        "yield_elastic_strain": [0.1, 0.2, 0.01, 0.02, float("nan"), float("nan")],
         "void_ratio": [0.5, 0.4, 0.54, 0.52, float("nan"), float("nan")],
     }
 )
@@ -385,6 +387,12 @@ def test_the_front_is_tabled_along_c_as_far_as_it_is_admissible(page):
     ) in html
     assert "<td>0.50</td><td>0.7600</td><td>3.83</td> <td>0.040</td><td>none</td>" in html
     assert "0.7700" not in html
+
+
+def test_yield_beyond_the_measured_strains_is_said(page):
+    html = page({"model": {**MODEL, "largest_strain": 0.015}})
+    assert "From C = 0.10 on it yields at elastic strains above 1.5 %" in html
+    assert "it yields at" not in page({})
 
 
 def test_every_form_says_whether_it_is_admissible_where_not_and_why(page):
