@@ -29,6 +29,7 @@ include: "workflow/rules/energy_split.smk"
 include: "workflow/rules/sharing.smk"
 include: "workflow/rules/thermodynamics.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/materials.smk"
 include: "workflow/rules/measured.smk"
 include: "workflow/rules/preview.smk"
 
