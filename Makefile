@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery tutorial quality findings bench publish schema test lint docs lock clean own-environment
+.PHONY: help run preview example gallery tutorial quality findings mixing bench publish schema test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -47,11 +47,13 @@ MADE = { printf 'made on %s by %s, %s cores, ' "$$(date +%F)" "make $@" "$$(npro
 gallery: $(READY) ## every example, and the figures and tables that their pages show
 	for name in $$(ls examples); do \
 	  $(MAKE) --no-print-directory example NAME=$$name || exit 1; \
-	  for sample in $$(ls examples/$$name/results/figures); do \
+	  for sample in $$(ls examples/$$name/results/figures | grep -vx -e findings -e measured); do \
 	    for figure in fig3_grading fig5_energy_split loading_path certificate; do \
 	      mkdir -p examples/$$name/figures; \
 	      $(SHRINK) examples/$$name/results/figures/$$sample/$$figure.png examples/$$name/figures/$${sample}_$$figure.png; \
 	    done; done; \
+	  for material in $$(ls examples/$$name/results/figures/measured 2>/dev/null); do for figure in gradings compression; do \
+	    $(SHRINK) examples/$$name/results/figures/measured/$$material/$$figure.png examples/$$name/figures/$${material}_$$figure.png; done; done; \
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
 	$(MADE) > docs/results/gallery_made.txt
 
@@ -75,6 +77,11 @@ findings: $(READY) ## what the energy of a branch depends on, in five gradings: 
 	for figure in exponents lengths energies coordination shielding forces; do \
 	  $(SHRINK) studies/energy_split/results/figures/findings/$$figure.png docs/figures/findings_$$figure.png; done
 	$(MADE) > docs/results/findings_made.txt
+
+mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradings: docs/mixing.md, an hour on 2 cores
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/mixing
+	$(BIN)/python studies/mixing/compare.py
+	$(MADE) > docs/results/mixing_made.txt
 
 bench: $(READY) ## what it takes, beside other codes too: benchmarks/results/, on an idle machine
 	$(IN_ENVIRONMENT) python -m benchmarks $(PART)
