@@ -166,15 +166,16 @@ def sample_paths(
     -------
     paths : list of SeedPath
     missing : list of str
-        A line each for packings that are not there.
+        What is said of packings that are not there.
     untold : list of str
         A line each for packings that are, without a jamming point.
     """
     paths, missing, untold = [], [], []
+    absent = []
     for seed in sample.settings["seeds"]:
         folder = results / sample.name / f"seed_{seed}"
         if not (folder / "made.json").exists():  # the last that a packing writes
-            missing.append(f"{sample.name}, seed {seed}: not packed yet")
+            absent.append(str(seed))
             continue
         path = _seed_path(folder, pair, sample, seed)
         if path is None:
@@ -183,6 +184,8 @@ def sample_paths(
         paths.append(path)
         if np.isnan(path.jamming):
             untold.append(f"{sample.name}, seed {seed}: its path does not tell a jamming point")
+    if absent:
+        missing.append(f"{sample.name}: seeds {', '.join(absent)} not packed yet")
     return paths, missing, untold
 
 

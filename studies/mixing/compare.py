@@ -38,25 +38,26 @@ DOCS = STUDY.parents[1] / "docs"
 def main(folder: Path = STUDY, docs: Path = DOCS) -> list[str]:
     """Write the tables, the figure and the page; return what is missing, a line each."""
     pairs, predictions = study_pairs(folder), read_table(PREDICTIONS)
-    tables, missing, untold = _tables(folder, pairs, predictions)
+    tables, there, missing, untold = _tables(folder, pairs, predictions)
     for name, table in tables.items():
         write_table(docs / "results" / f"{name}.csv", table, provenance())
     figure = docs / "figures" / "mixing.png"
     draw(figure, pairs, tables["mixing"], tables["mixing_measured"], predictions)
     page = docs / "mixing.md"
-    blocks = _blocks(pairs, tables, predictions, missing, untold)
+    blocks = _blocks(pairs, tables, predictions, there, missing, untold)
     page.write_text(filled(page.read_text(encoding="utf-8"), blocks), encoding="utf-8")
     return missing + untold
 
 
 def _tables(folder, pairs, predictions):
     rows = {name: [] for name in _TABLES}
-    missing, untold = [], []
+    there, missing, untold = 0, [], []
     for pair in pairs:
         paths = {}
         for sample in pair.samples:
             found = sample_paths(folder / "results", pair, sample)
             paths[sample.crushing] = found[0]
+            there += len(found[0])
             missing += found[1]
             untold += found[2]
             if paths[sample.crushing]:
@@ -68,7 +69,7 @@ def _tables(folder, pairs, predictions):
             rows["mixing"] += compared_rows(pair, paths, predictions)
             rows["mixing_errors"] += summary_rows(pair, paths, predictions)
             rows["mixing_solid_fraction"] += fraction_rows(pair, paths, predictions)
-    return {name: pd.DataFrame(entries) for name, entries in rows.items()}, missing, untold
+    return {name: pd.DataFrame(entries) for name, entries in rows.items()}, there, missing, untold
 
 
 # What is written, docs/results/<name>.csv.
@@ -83,12 +84,17 @@ _TABLES = (
 )
 
 
-def _blocks(pairs, tables, predictions, missing, untold):
+def _blocks(pairs, tables, predictions, there, missing, untold):
     compared, measured = tables["mixing"], tables["mixing_measured"]
     asked = sum(len(sample.settings["seeds"]) for pair in pairs for sample in pair.samples)
-    told = [f"{asked - len(missing)} of {asked} packings are in these tables."]
+    told = [f"{there} of {asked} packings are in these tables."]
     if missing:
-        told += ["", "Missing:", "", *(f"- {line}" for line in missing)]
+        told += [
+            "",
+            "So this page is not finished. Missing:",
+            "",
+            *(f"- {line}" for line in missing),
+        ]
     if untold:
         told += ["", "At elastic strains and stresses only:", "", *(f"- {line}" for line in untold)]
     return {
