@@ -461,4 +461,6 @@ def test_page_tells_which_grains_carry_load_by_rods(page):
     assert "in a periodic cell, by rods that push" in html
     assert "0.721" in html and "<td>23, 91</td>" in html and "<td>0.32</td>" in html
     nothing = {"target": GRADING, "realised": GRADING, "representativity": STANDING}
-    assert "in a periodic cell, by rods" not in page({"grading": nothing | {"rods": {"reason": "none"}}})
+    assert "in a periodic cell, by rods" not in page(
+        {"grading": nothing | {"rods": {"reason": "none"}}}
+    )
