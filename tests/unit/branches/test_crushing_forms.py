@@ -1,5 +1,7 @@
 """The forms of the crushing model for two gradings, against numbers known by other means."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -105,6 +107,14 @@ def test_limiting_density_meets_the_path_at_half(path):
     limiting = crushing_forms(path, COARSE, FINE, 3.0)["tengattini"]
     known = path.solid_fraction[4] / path.solid_fraction[0]
     assert float(limiting.jamming.value(0.5)) == pytest.approx(known, rel=1e-9)
+
+
+@pytest.mark.parametrize("half", [0.60, 0.64, 0.6400001, 0.6435])
+def test_limiting_densities_that_would_not_rise_up_to_half_are_no_form(path, half):
+    # Porosity 0.36: the power of 1 - C would be below 0, 0 or so small that all is left for C = 1.
+    solid = np.array([0.64, 0.64, 0.64, 0.64, half, 0.65, 0.66])
+    forms = crushing_forms(replace(path, solid_fraction=solid), COARSE, FINE, 3.0)
+    assert "tengattini" not in forms and "einav" in forms
 
 
 def test_forms_in_order(path):
