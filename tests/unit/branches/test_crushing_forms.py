@@ -5,8 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from branchcrush.branches import mixing
 from branchcrush.branches.crushing_forms import FORM_LABELS, crushing_forms
 from branchcrush.branches.mixing import mixing_path
+from branchcrush.branches.nodes import CELLS
+from branchcrush.branches.parking import parking_contacts
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.gradings.forms import fractal, uniform
@@ -49,6 +52,22 @@ def test_a_grading_mixed_with_itself_stays(path):
     same = mixing_path(COARSE, COARSE, LINEAR, crushing=np.array([0.0, 0.4, 1.0]))
     for values in (same.solid_fraction, same.modulus, same.contact_diameter, same.bearing_mass):
         np.testing.assert_allclose(values, values[0], rtol=1e-9)
+
+
+def test_parking_needs_half_the_radii_that_rods_take(monkeypatch):
+    sizes = []
+
+    def parked(radius, share):
+        sizes.append(radius.size)
+        return parking_contacts(radius, share)
+
+    monkeypatch.setattr(mixing, "parking_contacts", parked)
+    at = np.array([0.0, 0.3, 1.0])
+    found = mixing_path(COARSE, FINE, LINEAR, network="parking", crushing=at)
+    assert max(sizes) < CELLS * 2
+    # With twice as many radii of each grading.
+    known = [1.0, 1.3278, 4.7119]
+    np.testing.assert_allclose(found.modulus / found.modulus[0], known, rtol=5e-4)
 
 
 def test_driving_force_ends_just_below_the_densest_mixture():
