@@ -26,8 +26,9 @@ FORM_LABELS: Mapping[str, str] = MappingProxyType(
 )
 # Largest over smallest size up to which the forms were compared with packings.
 TESTED_RATIO = 20.0
-# Where the limiting density meets that of the rod map.
-_HALF = 0.5
+# Where the limiting density meets that of the rod map, and how much of the porosity must be gone
+# there: else nearly all of it would go at once at C = 1.
+_HALF, _LEAST_FALL = 0.5, 0.01
 
 
 def crushing_forms(
@@ -51,7 +52,8 @@ def crushing_forms(
 
     With branch density the gradings are mixed by mass and pairs of one grain of either counted.
     Einav's means are by mass. Tengattini's u has no rule of its own: it is taken so that the
-    solid fraction at C = 1/2 is that of the path.
+    solid fraction at C = 1/2 is that of the path. Where the porosity falls by less than a
+    hundredth up to there no such power means anything, and the form is left out.
 
     Parameters
     ----------
@@ -102,8 +104,10 @@ def crushing_forms(
         "paper": ModelForm(LinearCurve(1.0 - moments[2] / moments[0])),
         "density": ModelForm(PairCurve(finer, moments[1] / moments[0], moments[2] / moments[0])),
         "einav": ModelForm(einav),
-        "tengattini": ModelForm(einav, _limiting_density(moving.jamming, path)),
     }
+    limiting = _limiting_density(moving.jamming, path)
+    if limiting is not None:
+        forms["tengattini"] = ModelForm(einav, limiting)
     if contacts is not None:
         measured = _with_contacts(initial, ultimate, exponent, contacts, finer)
         forms["measured_contacts"] = ModelForm(measured)
@@ -115,10 +119,12 @@ def _mean_square(grading: Grading) -> float:
     return grading.moment(5) / grading.moment(3)
 
 
-def _limiting_density(jamming: Curve, path: MixingPath) -> PorosityCurve:
-    """Return the power law of the porosity that meets the path at C = 1/2."""
+def _limiting_density(jamming: Curve, path: MixingPath) -> PorosityCurve | None:
+    """Return the power law of the porosity that meets the path at C = 1/2, if it falls."""
     porosity = 1.0 - float(path.solid_fraction[0])
     half = 1.0 - float(path.solid_fraction[0] * jamming.value(_HALF))
+    if half > (1.0 - _LEAST_FALL) * porosity:
+        return None
     power = np.log(half / porosity) / np.log(1.0 - _HALF)
     return PorosityCurve(porosity, float(power))
 

@@ -94,8 +94,9 @@ class PorosityCurve:
         return (1.0 - self.porosity * left) / (1.0 - self.porosity)
 
     def log_slope(self, crushing: ArrayLike) -> NDArray:
-        """Return the slope of its logarithm."""
-        intact = np.subtract(1.0, crushing)
+        """Return the slope of its logarithm; that just below C = 1 for C = 1 itself."""
+        # There it may be infinite.
+        intact = np.maximum(np.subtract(1.0, crushing), np.finfo(float).epsneg)
         fall = self.porosity * self.power * intact ** (self.power - 1.0)
         return fall / (1.0 - self.porosity * intact**self.power)
 

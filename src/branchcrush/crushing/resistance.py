@@ -85,14 +85,15 @@ class CriticalEnergy:
         Parameters
         ----------
         crushing : array_like
-            C, any shape, below 1 [-].
+            C, any shape [-].
 
         Returns
         -------
         ndarray
-            [J/m3]
+            [J/m3]; infinite at C = 1 if it hardens.
         """
-        return self.energy / np.subtract(1.0, crushing) ** self.hardening
+        left = np.subtract(1.0, crushing) ** self.hardening
+        return np.divide(self.energy, left, out=np.full_like(left, np.inf), where=left > 0.0)
 
     def critical_force(
         self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity
@@ -122,10 +123,12 @@ class CriticalEnergy:
         Returns
         -------
         ndarray
-            [-]
+            [-]; -1 where the resistance is infinite, however large the force.
         """
-        force = form.driving_force(strain, crushing, elasticity)
-        return force * np.subtract(1.0, crushing) ** self.hardening / self.energy - 1.0
+        left = np.subtract(1.0, crushing) ** self.hardening
+        # The force may be infinite there too, of what comes to an end with a jerk.
+        force = form.driving_force(strain, np.where(left > 0.0, crushing, 0.0), elasticity)
+        return force * left / self.energy - 1.0
 
     def yield_strain(self, crushing: ArrayLike, form: ModelForm, elasticity: Elasticity) -> NDArray:
         """Return the least elastic strain at which C grows.

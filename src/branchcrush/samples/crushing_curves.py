@@ -172,8 +172,7 @@ def _states(
     """Return what a form says of some states."""
     crushing = np.broadcast_to(crushing, strain.shape)
     elastic = form.elastic_strain(strain, crushing)
-    with np.errstate(divide="ignore"):  # at C = 1 a resistance may be infinite
-        critical = resistance.critical_force(crushing, form, elasticity)
+    critical = resistance.critical_force(crushing, form, elasticity)
     force = form.driving_force(strain, np.minimum(crushing, _COMPLETE), elasticity)
     return pd.DataFrame(
         {

@@ -230,7 +230,6 @@ def _told(
         "theta": 1.0 - float(form.factor.value(1.0)) if stays else None,
         "admissible": found.admissible,
         "inadmissible_from": found.costs[0][0] if found.costs else None,
-        "hardens": not found.snaps,
         "snaps": [snap.crushing for snap in found.snaps],
         "least_hardening_exponent": least,
         "hardens_at_onset": found.hardens_at_onset if yields else None,

@@ -91,10 +91,14 @@ def forms_of(
     def of_exponent(name: str) -> Callable[[float], ModelForm]:
         return lambda n: crushing_forms(path, initial, ultimate, n, contacts)[name]
 
-    half = np.interp(0.5, path.crushing, path.solid_fraction)
-    if half < path.solid_fraction[0] * (1.0 - _ROUNDING):
+    if "tengattini" not in made:
+        half = np.interp(0.5, path.crushing, path.solid_fraction)
+        looser = half < path.solid_fraction[0] * (1.0 - _ROUNDING)
         missing["tengattini"] = (
             "mixtures with the ultimate grading jam looser, and its limiting densities only rise"
+            if looser
+            else "mixtures with the ultimate grading jam hardly denser up to C = 1/2, and its "
+            "limiting densities would rise only at the end"
         )
 
     sentences = {

@@ -1,10 +1,15 @@
 """The forms of the crushing model for two gradings, against numbers known by other means."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from branchcrush.branches import mixing
 from branchcrush.branches.crushing_forms import FORM_LABELS, crushing_forms
 from branchcrush.branches.mixing import mixing_path
+from branchcrush.branches.nodes import CELLS
+from branchcrush.branches.parking import parking_contacts
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.elasticity import PowerLawElasticity
 from branchcrush.gradings.forms import fractal, uniform
@@ -47,6 +52,22 @@ def test_a_grading_mixed_with_itself_stays(path):
     same = mixing_path(COARSE, COARSE, LINEAR, crushing=np.array([0.0, 0.4, 1.0]))
     for values in (same.solid_fraction, same.modulus, same.contact_diameter, same.bearing_mass):
         np.testing.assert_allclose(values, values[0], rtol=1e-9)
+
+
+def test_parking_needs_half_the_radii_that_rods_take(monkeypatch):
+    sizes = []
+
+    def parked(radius, share):
+        sizes.append(radius.size)
+        return parking_contacts(radius, share)
+
+    monkeypatch.setattr(mixing, "parking_contacts", parked)
+    at = np.array([0.0, 0.3, 1.0])
+    found = mixing_path(COARSE, FINE, LINEAR, network="parking", crushing=at)
+    assert max(sizes) < CELLS * 2
+    # With twice as many radii of each grading.
+    known = [1.0, 1.3278, 4.7119]
+    np.testing.assert_allclose(found.modulus / found.modulus[0], known, rtol=5e-4)
 
 
 def test_driving_force_ends_just_below_the_densest_mixture():
@@ -105,6 +126,14 @@ def test_limiting_density_meets_the_path_at_half(path):
     limiting = crushing_forms(path, COARSE, FINE, 3.0)["tengattini"]
     known = path.solid_fraction[4] / path.solid_fraction[0]
     assert float(limiting.jamming.value(0.5)) == pytest.approx(known, rel=1e-9)
+
+
+@pytest.mark.parametrize("half", [0.60, 0.64, 0.6400001, 0.6435])
+def test_limiting_densities_that_would_not_rise_up_to_half_are_no_form(path, half):
+    # Porosity 0.36: the power of 1 - C would be below 0, 0 or so small that all is left for C = 1.
+    solid = np.array([0.64, 0.64, 0.64, 0.64, half, 0.65, 0.66])
+    forms = crushing_forms(replace(path, solid_fraction=solid), COARSE, FINE, 3.0)
+    assert "tengattini" not in forms and "einav" in forms
 
 
 def test_forms_in_order(path):

@@ -89,6 +89,13 @@ def test_a_resistance_below_the_bound_snaps_from_the_onset():
     assert found.sentences == ("C snaps from 0 to 0.556 at 18.3 MPa, by itself.",)
 
 
+def test_a_form_that_hardens_at_onset_may_snap_farther_on():
+    # Little is lost up to C = 0.4, and nearly half between there and 0.6.
+    form = ModelForm(TabulatedCurve((0.0, 0.2, 0.4, 0.6, 1.0), (1.0, 0.95, 0.9, 0.5, 0.4)))
+    found = admissibility(form, LINEAR, CriticalEnergy(1e5, 2.0), 0.4)
+    assert found.hardens_at_onset and found.snaps[0].crushing > 0.1
+
+
 def test_a_constant_resistance_leaps_to_the_end_at_one_strain():
     found = admissibility(PAPER, LINEAR, CriticalEnergy(1e5, 0.0), 0.2)
     (leap,) = found.leaps

@@ -111,6 +111,22 @@ def test_limiting_densities_are_left_out_where_mixtures_jam_looser():
     assert not {"paper", "tengattini"} & set(looser.made)
 
 
+def test_a_grading_that_is_the_ultimate_one_already():
+    gouge = fractal(0.2e-3, 1e-3, 2.6)
+    numbers = pd.DataFrame(
+        {"state": 0, "mean_radius_m": [0.2e-3, 0.5e-3, 1e-3], "contact_number": [2.0, 7.0, 12.0]}
+    )
+    same = forms_of(gouge, gouge, 3.0, LINEAR, numbers, Thermodynamics().model_dump())
+    # Nothing is asked of an exponent, and no power tells how limiting densities rise.
+    assert same.sentences == {}
+    assert list(same.missing) == ["tengattini"]
+    assert "hardly denser up to C = 1/2" in same.missing["tengattini"]
+    law, limit = PowerLawElasticity(1e9, 1.5), resistance(same, LINEAR)
+    for form in same.made.values():
+        found = admissibility(form, law, limit, 0.2)
+        assert found.admissible and found.sentences[0].startswith("Crushing changes nothing")
+
+
 def test_sizes_farther_apart_than_was_tested_are_told_with_their_stiffness(wide, mixtures):
     told = untested(wide, LINEAR)
     assert told.startswith("The largest grains are 200 times the smallest; beyond 20 no form is")

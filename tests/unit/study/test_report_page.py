@@ -21,7 +21,7 @@ FORM = {
     "reason": None,
     "admissible": True,
     "inadmissible_from": None,
-    "hardens": True,
+    "hardens_at_onset": True,
     "snaps": [],
     "sentences": [],
 }
@@ -46,7 +46,7 @@ MODEL = {
             "sentences": ["It ends at C = 0.55.", "It snaps."],
         },
         "paper": FORM | {"theta": 0.891574},
-        "density": FORM | {"theta": -0.25, "hardens": None, "inadmissible_from": 0.0},
+        "density": FORM | {"theta": -0.25, "hardens_at_onset": None, "inadmissible_from": 0.0},
         "measured_contacts": {"reason": "no contacts <measured>"},
     },
 }
@@ -400,8 +400,10 @@ def test_every_form_says_whether_it_is_admissible_where_not_and_why(page):
     moving = html[html.index("<tr><td>moving jamming point</td>") :]
     assert "<td>none</td><td>no</td> <td>from C = 0.55</td> <td>yes</td>" in moving
     assert "<td>at C = 0.12, 0.25</td></tr>" in moving
+    # One that hardens when crushing begins may snap farther on.
+    assert "<th>hardens at onset</th><th>snaps under stress</th>" in html
     assert "<td>0.891574</td><td>yes</td> <td>never</td> <td>yes</td><td>never</td></tr>" in html
-    assert "<td>-0.25</td><td>yes</td> <td>at all C</td> <td>unknown</td>" in html
+    assert "<td>-0.25</td><td>yes</td> <td>at all C</td> <td>never yields</td>" in html
     assert '<td class="words" colspan="5">no contacts &lt;measured&gt;</td></tr>' in html
     assert "<p><b>moving jamming point</b>: It ends at C = 0.55. It snaps.</p>" in html
 
