@@ -97,7 +97,7 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
     for name in ("alike", "loose"):
         figures = list((no_data / "figures" / name).glob("*.png"))
-        assert len(figures) == 12
+        assert len(figures) == 15
         for figure in figures:
             assert (image.imread(figure)[..., :3].min(axis=-1) < 0.9).any(), figure
 
@@ -107,7 +107,9 @@ def test_findings_keep_what_grains_of_one_size_do_tell(no_data):
     assert rows["reason"].to_dict() == {"alike": ONE_LENGTH, "loose": NO_LOAD}
     assert 4 < rows.loc["alike", "coordination_number_end"] < 14
     assert rows.loc["alike", "sharing_index"] == pytest.approx(0, abs=1e-9)
-    assert rows.loc["loose"].drop(["boundary", "contact_law", "reason"]).isna().all()
+    known = ["boundary", "contact_law", "verdict", "verdict_reasons", "reason"]
+    assert rows.loc["loose"].drop(known).isna().all()
+    assert rows.loc["loose", "verdict"] == "not certified"
     page = (no_data / "findings.html").read_text(encoding="utf-8")
     assert f"Not all is known of loose: {NO_LOAD}." in page
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
