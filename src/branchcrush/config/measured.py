@@ -11,7 +11,7 @@ from pydantic import (
     field_validator,
 )
 
-from branchcrush.config.compression import Contact
+from branchcrush.config.compression import HertzContact, LinearContact
 from branchcrush.config.fields import Allowed, Fraction, Section, number, refusal
 from branchcrush.config.grading_keys import SIZES_ARE, FileName
 from branchcrush.config.gradings import GradingSection
@@ -69,6 +69,14 @@ class UltimateSmallest(Section):
         return self.value * UNITS[self.unit] * (0.5 if self.size == "diameter" else 1.0)
 
 
+class StatedContact(LinearContact):
+    """Frictionless linear normal contact of a stiffness that is given: the fit rests on it."""
+
+    normal_stiffness: number(above=0, most=1e15, unit="N/m") = Field(
+        description="Normal stiffness of a contact, k_n [N/m].", examples=[1.0e6]
+    )
+
+
 class CompressionTest(Section):
     """A compression curve, to which the resistance to crushing is fitted."""
 
@@ -102,7 +110,9 @@ class CompressionTest(Section):
         "one. 1 where stresses are mean stresses [-].",
         examples=[0.45],
     )
-    contact: Contact = Field(description="Law and stiffness of the grains' contacts.")
+    contact: Annotated[StatedContact | HertzContact, Field(discriminator="law")] = Field(
+        description="Law and stiffness of the grains' contacts."
+    )
     share_of_affine: Fraction = Field(
         0.8,
         description="Elastic energy over that of affine motion on the network at jamming; 0.8 was "
@@ -122,7 +132,8 @@ class CompressionTest(Section):
         if ratio is None and info.data.get("values") == "void_ratio":
             raise refusal(
                 "must be the void ratio at the beginning of the test, from which strain counts, "
-                "where values are void ratios"
+                "where values are void ratios",
+                missing=True,
             )
         return ratio
 

@@ -69,6 +69,8 @@ def problem(detail: Mapping[str, Any], root: type[BaseModel]) -> str:
     if kind == "refusal":
         if context.get("of_section"):
             return f"{_key(path[:-1])}: {context['words']}"
+        if context.get("missing"):
+            return f"{_key(path)}: missing; {context['words']}"
         if "key" in context:
             path.append(context["key"])
             value = context["value"]
