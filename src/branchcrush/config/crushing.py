@@ -49,11 +49,11 @@ class Thermodynamics(Section):
     )
     pressure_exponent: number(least=0, most=0.99) = Field(
         0.5,
-        description="Exponent q of the modulus K = K_0 (p/p_0)^q, with elasticity: "
-        "pressure_dependent; K_0 is fitted [-].",
+        description="Exponent q of the modulus K = K_r (p/p_r)^q, with elasticity: "
+        "pressure_dependent; K_r is fitted [-].",
     )
     reference_pressure: number(above=0, most=1e15, unit="Pa") = Field(
-        1.0e5, description="Pressure p_0 at which the modulus of the elastic law is told [Pa]."
+        1.0e5, description="Pressure p_r at which the modulus of the elastic law is told [Pa]."
     )
     # As none is given: a section without a history is refused.
     history: History = Field(
