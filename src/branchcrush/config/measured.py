@@ -111,7 +111,8 @@ class CompressionTest(Section):
         examples=[0.45],
     )
     contact: Annotated[StatedContact | HertzContact, Field(discriminator="law")] = Field(
-        description="Law and stiffness of the grains' contacts."
+        description="Law and stiffness of the grains' contacts; that of linear ones is asked for "
+        "too, since the fit rests on it."
     )
     share_of_affine: Fraction = Field(
         0.8,
