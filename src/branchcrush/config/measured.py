@@ -11,7 +11,7 @@ from pydantic import (
     field_validator,
 )
 
-from branchcrush.config.compression import HertzContact, LinearContact
+from branchcrush.config.compression import Contact
 from branchcrush.config.fields import Allowed, Fraction, Section, number, refusal
 from branchcrush.config.grading_keys import SIZES_ARE, FileName
 from branchcrush.config.gradings import GradingSection
@@ -69,14 +69,6 @@ class UltimateSmallest(Section):
         return self.value * UNITS[self.unit] * (0.5 if self.size == "diameter" else 1.0)
 
 
-class StatedContact(LinearContact):
-    """Frictionless linear normal contact of a stiffness that is given: the fit rests on it."""
-
-    normal_stiffness: number(above=0, most=1e15, unit="N/m") = Field(
-        description="Normal stiffness of a contact, k_n [N/m].", examples=[1.0e6]
-    )
-
-
 class CompressionTest(Section):
     """A compression curve, to which the resistance to crushing is fitted."""
 
@@ -110,9 +102,9 @@ class CompressionTest(Section):
         "one. 1 where stresses are mean stresses [-].",
         examples=[0.45],
     )
-    contact: Annotated[StatedContact | HertzContact, Field(discriminator="law")] = Field(
-        description="Law and stiffness of the grains' contacts; that of linear ones is asked for "
-        "too, since the fit rests on it."
+    contact: Contact = Field(
+        description="Law and stiffness of the grains' contacts; the fit rests on them, so that no "
+        "default is taken."
     )
     share_of_affine: Fraction = Field(
         0.8,
@@ -126,6 +118,20 @@ class CompressionTest(Section):
         description="Void ratio at the beginning of the test; needed where values are void "
         "ratios [-].",
     )
+
+    @field_validator("contact")
+    @classmethod
+    def _stated(cls, contact: Contact) -> Contact:
+        for key in type(contact).model_fields:
+            if key not in contact.model_fields_set:
+                raise refusal(
+                    "give that of the grains' contacts: the fit rests on it, so that it has no "
+                    "default here",
+                    key=key,
+                    value=None,
+                    missing=True,
+                )
+        return contact
 
     @field_validator("initial_void_ratio")
     @classmethod

@@ -69,11 +69,11 @@ def problem(detail: Mapping[str, Any], root: type[BaseModel]) -> str:
     if kind == "refusal":
         if context.get("of_section"):
             return f"{_key(path[:-1])}: {context['words']}"
-        if context.get("missing"):
-            return f"{_key(path)}: missing; {context['words']}"
         if "key" in context:
             path.append(context["key"])
             value = context["value"]
+        if context.get("missing"):
+            return f"{_key(path)}: missing; {context['words']}"
         unit = f" {context['unit']}" if context.get("unit") and number_of(value) is not None else ""
         return f"{_key(path)} = {shown(value)}{unit}: {context['words']}"
     return f"{_key(path)} = {shown(value)}: {_ALLOWED.get(kind, 'has no meaning here')}"

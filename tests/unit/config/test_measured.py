@@ -120,7 +120,7 @@ def test_a_material_that_makes_no_sense_is_refused(problems, changes, said):
         ({"sheet": 0}, "sheet = 0: must be the name of a sheet"),
         ({"lateral_stress_ratio": 1.5}, "lateral_stress_ratio = 1.5: must be a number above 0"),
         ({"contact": {"law": "hertz"}}, "compression.contact.young_modulus: missing"),
-        ({"contact": {"law": "linear"}}, "contact.normal_stiffness: missing; must be a number"),
+        ({"contact": {"law": "linear"}}, "contact.normal_stiffness: missing; give that of the"),
         ({"file": "none.csv"}, "compression.file = 'none.csv': there is no such file"),
         ({"stress_unit": "kPa"}, "compression.file: curve.csv, the file and the keys disagree"),
         ({"values": "percent_strian"}, "values = 'percent_strian': must be 'void_ratio'"),
