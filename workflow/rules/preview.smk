@@ -17,6 +17,7 @@ rule preview:
         text="results/preview.txt",
         figures=[f"results/figures/{sample}/preview.png" for sample in SAMPLES],
         samples=SAMPLES,
+        measured={name: list(material) for name, material in MEASURED.items()},
         ultimate_alpha=SETTINGS.thermodynamics.ultimate_alpha,
         # `workflow.cores` refuses where none are given, as with --unlock.
         cores=workflow.resource_settings.cores or 1,

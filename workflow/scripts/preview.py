@@ -16,5 +16,6 @@ with job(snakemake.log[0]):
         ultimate_alpha=params.ultimate_alpha,
         dpi=params.dpi,
         cores=params.cores,
+        measured=params.measured,
     )
     print(text, end="")

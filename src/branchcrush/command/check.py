@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Collection
 from pathlib import Path
 
 from branchcrush.config.checks import checked_study
@@ -43,6 +44,32 @@ def study_of(place: str, *, few_grains: bool = False) -> Config | None:
         return None
 
 
+def measured_line(name: str, given: Collection[str]) -> str:
+    """Return what will be made of a measured material, in a line.
+
+    Parameters
+    ----------
+    name : str
+    given : collection of str
+        Keys of the material that are given.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> measured_line("sand", ["before", "compression", "ultimate_smallest"])
+    'sand, measured: resistance from its compression curve -> results/measured.html'
+    """
+    made = {
+        "after": "breakage from its sieve curves",
+        "compression": "resistance from its compression curve",
+    }
+    words = ", ".join(what for key, what in made.items() if key in given)
+    return f"{name}, measured: {words} -> results/measured.html"
+
+
 def check(place: str) -> int:
     """Print what is wrong with a configuration, or what it holds if nothing is.
 
@@ -66,6 +93,8 @@ def check(place: str) -> int:
             "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
         )
         print(f"{name}: {sample.grading.form}, {grains}, {len(sample.seeds)} packings")
+    for name, material in study.measured.items():
+        print(measured_line(name, material.settings()))
     where = f" --directory{folder}" if folder else ""
     print(f"sound: branchcrush preview{folder} tells what it will be")
     print(f"       snakemake --cores 2{where} runs it")

@@ -1,7 +1,7 @@
 """The preview of a study: a picture and a plan of each sample, and one text of all."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import branchcrush
-from branchcrush.command.check import study_of
+from branchcrush.command.check import measured_line, study_of
 from branchcrush.config.build import size_fits, unit_of
 from branchcrush.config.sample import sample_of
 from branchcrush.errors import BranchcrushError
@@ -33,6 +33,7 @@ def study_preview(
     ultimate_alpha: float,
     dpi: int,
     cores: int,
+    measured: Mapping[str, Collection[str]],
 ) -> str:
     """Draw the grading of every sample, write what the study will be, and return it.
 
@@ -52,6 +53,8 @@ def study_preview(
         Of the pictures, dots per inch.
     cores : int
         That a run will use.
+    measured : mapping
+        Which keys are given of each measured material, by its name.
 
     Returns
     -------
@@ -87,6 +90,7 @@ def study_preview(
             refused=not settings["allow_unrepresentative"],
         )
     page = preview_text(plans, cores, pictures, notes)
+    page += "".join(f"{measured_line(*material)}\n" for material in measured.items())
     write_text(text, page)
     return page
 
@@ -132,6 +136,7 @@ def preview(place: str, cores: int) -> int:
                 ultimate_alpha=study.thermodynamics.ultimate_alpha,
                 dpi=study.figures.dpi,
                 cores=cores,
+                measured={name: each.settings() for name, each in study.measured.items()},
             ),
             end="",
         )

@@ -2,12 +2,21 @@
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 
-from branchcrush.config.fields import Section, number
+from branchcrush.config.fields import Section, number, refusal
 from branchcrush.config.history import History
 from branchcrush.crushing.resistance import LARGEST
 from branchcrush.gradings.rods import GAP, PUBLISHED_GAP
+
+# Keys that are for one choice of another key, and what they are for.
+_FOR = {
+    "pressure_exponent": ("elasticity", "pressure_dependent"),
+    "critical_energy": ("resistance", "critical_energy"),
+    "hardening_exponent": ("resistance", "critical_energy"),
+    "elastic_strain": ("resistance", "elastic_strain"),
+    "strength_exponent": ("resistance", "elastic_strain"),
+}
 
 
 class Thermodynamics(Section):
@@ -40,14 +49,15 @@ class Thermodynamics(Section):
     )
     pressure_exponent: number(least=0, most=0.99) = Field(
         0.5,
-        description="Exponent q of the modulus K = K_0 (p/p_0)^q, with elasticity: "
-        "pressure_dependent; K_0 is fitted [-].",
+        description="Exponent q of the modulus K = K_r (p/p_r)^q, with elasticity: "
+        "pressure_dependent; K_r is fitted [-].",
     )
     reference_pressure: number(above=0, most=1e15, unit="Pa") = Field(
-        1.0e5, description="Pressure p_0 at which the modulus of the elastic law is told [Pa]."
+        1.0e5, description="Pressure p_r at which the modulus of the elastic law is told [Pa]."
     )
+    # As none is given: a section without a history is refused.
     history: History = Field(
-        History(),
+        History.model_construct(),
         description="A history of strain or stress of your own, beside the loading and unloading.",
     )
     resistance: Literal["critical_energy", "elastic_strain"] = Field(
@@ -72,3 +82,15 @@ class Thermodynamics(Section):
         "elastic strain of crushing goes as d^(1 − b) with a constant stiffness, as d^(−2b/3) with "
         "Hertz's contacts [-].",
     )
+
+    # Defaults are not validated, so that only what is given is refused.
+    @field_validator(*_FOR)
+    @classmethod
+    def _has_effect(cls, value: float, info: ValidationInfo) -> float:
+        key, needed = _FOR[str(info.field_name)]
+        chosen = info.data.get(key, needed)  # one that is wrong is refused as such
+        if chosen != needed:
+            raise refusal(
+                f"has no effect with {key}: {chosen}: leave it out, or say {key}: {needed}"
+            )
+        return value

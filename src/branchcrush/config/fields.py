@@ -230,7 +230,8 @@ def refusal(words: str, **details: Any) -> PydanticCustomError:
         What is allowed, or what is wrong.
     **details
         unit: of the value; key, value: below the key that is validated, the one to name and show;
-        of_section: True names the section of the key, and no value.
+        of_section: True names the section of the key, and no value; missing: True says that the
+        key is missing.
 
     Returns
     -------

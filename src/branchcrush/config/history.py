@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 
 from branchcrush.config.fields import Section, number_of, refusal
+from branchcrush.crushing.resistance import LARGEST
 from branchcrush.files.histories import MOST_LOADS, UNITS, load_problem, read_history
 
 _WAYS = (
@@ -37,7 +38,7 @@ def _loads(quantity: str) -> Any:
             loads.append(float(load))
         return loads
 
-    limits = {"minimum": 0, **({"exclusiveMaximum": 1} if quantity == "strain" else {})}
+    limits = {"minimum": 0, **({"exclusiveMaximum": LARGEST} if quantity == "strain" else {})}
     schema = {
         "anyOf": [
             {
@@ -74,7 +75,7 @@ class History(Section):
     def _one_way(self) -> "History":
         given = [key for key in ("strain", "stress", "file") if getattr(self, key) is not None]
         of_file = self.column is not None or self.unit is not None
-        if len(given) > 1 or (of_file and not given):
+        if len(given) != 1:
             which = f"{' and '.join(given)} are given" if given else "none is given"
             raise refusal(f"{_WAYS}; {which}")
         if self.file is None:

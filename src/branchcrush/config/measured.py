@@ -102,7 +102,10 @@ class CompressionTest(Section):
         "one. 1 where stresses are mean stresses [-].",
         examples=[0.45],
     )
-    contact: Contact = Field(description="Law and stiffness of the grains' contacts.")
+    contact: Contact = Field(
+        description="Law and stiffness of the grains' contacts; the fit rests on them, so that no "
+        "default is taken."
+    )
     share_of_affine: Fraction = Field(
         0.8,
         description="Elastic energy over that of affine motion on the network at jamming; 0.8 was "
@@ -116,13 +119,28 @@ class CompressionTest(Section):
         "ratios [-].",
     )
 
+    @field_validator("contact")
+    @classmethod
+    def _stated(cls, contact: Contact) -> Contact:
+        for key in type(contact).model_fields:
+            if key not in contact.model_fields_set:
+                raise refusal(
+                    "give that of the grains' contacts: the fit rests on it, so that it has no "
+                    "default here",
+                    key=key,
+                    value=None,
+                    missing=True,
+                )
+        return contact
+
     @field_validator("initial_void_ratio")
     @classmethod
     def _of_void_ratios(cls, ratio: float | None, info: ValidationInfo) -> float | None:
         if ratio is None and info.data.get("values") == "void_ratio":
             raise refusal(
                 "must be the void ratio at the beginning of the test, from which strain counts, "
-                "where values are void ratios"
+                "where values are void ratios",
+                missing=True,
             )
         return ratio
 

@@ -12,6 +12,8 @@ from branchcrush.errors import GradingError
 from branchcrush.gradings.distribution import Grading
 
 _DEFAULT_ALPHA = 2.6
+# Of Einav's breakage: by so little two sieve analyses of one sand may differ.
+_SIEVING = 0.02
 
 
 def measured_problems(section: Any) -> list[str]:
@@ -35,11 +37,13 @@ def measured_problems(section: Any) -> list[str]:
     if not isinstance(section, dict):
         return []
     before, problems = checked_grading(section.get("before"), "before")
+    after = None
     if section.get("after") is not None:
-        problems += checked_grading(section["after"], "after")[1]
+        after, found = checked_grading(section["after"], "after")
+        problems += found
     problems += _compression_problems(section.get("compression"))
     if before is not None:
-        problems += _ultimate_problems(section, before)
+        problems += _ultimate_problems(section, before, after)
     return problems
 
 
@@ -59,8 +63,8 @@ def _compression_problems(raw: Any) -> list[str]:
     return []
 
 
-def _ultimate_problems(section: dict, before: Grading) -> list[str]:
-    """Return whether the ultimate grading is none to which crushing could lead."""
+def _ultimate_problems(section: dict, before: Grading, after: Grading | None) -> list[str]:
+    """Return whether crushing could not lead to the grading after, or to the ultimate one."""
     raw = section.get("ultimate_smallest")
     try:
         smallest = UltimateSmallest.model_validate(raw)
@@ -78,10 +82,22 @@ def _ultimate_problems(section: dict, before: Grading) -> list[str]:
             f"{smallest.unit}"
         ]
     try:
-        einav_breakage(before, before, alpha, largest, smallest.radius)
+        # Without a grading after, whether the ultimate one is any finer.
+        breakage = einav_breakage(before, after or before, alpha, largest, smallest.radius)
     except ValueError:
         return [
             f"{value}: the ultimate grading would be no finer than the one before: lower it, or "
             "raise ultimate_alpha"
+        ]
+    if breakage < -_SIEVING:
+        return [
+            f"after: coarser than before, Einav's B = {breakage:.3g}, and crushing makes none "
+            "coarser: are before and after exchanged?"
+        ]
+    if breakage > 1.0 + _SIEVING:
+        lower = "lower it, or " if smallest.value > 0.0 else ""
+        return [
+            f"{value}: the grading after is finer than the ultimate one, Einav's B = "
+            f"{breakage:.3g}, which must be at most 1: {lower}raise ultimate_alpha"
         ]
     return []

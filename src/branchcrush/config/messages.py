@@ -72,6 +72,8 @@ def problem(detail: Mapping[str, Any], root: type[BaseModel]) -> str:
         if "key" in context:
             path.append(context["key"])
             value = context["value"]
+        if context.get("missing"):
+            return f"{_key(path)}: missing; {context['words']}"
         unit = f" {context['unit']}" if context.get("unit") and number_of(value) is not None else ""
         return f"{_key(path)} = {shown(value)}{unit}: {context['words']}"
     return f"{_key(path)} = {shown(value)}: {_ALLOWED.get(kind, 'has no meaning here')}"

@@ -162,8 +162,8 @@ def pressure_dependent(
 ) -> PowerLawElasticity:
     r"""Return the law whose bulk modulus grows with the pressure, as is usual for soils.
 
-    .. math:: K = \frac{dp}{d\epsilon} = K_0 \left(\frac{p}{p_0}\right)^q \quad\Rightarrow\quad
-        p = p_0 \left[\frac{(1-q)\, K_0\, \langle\epsilon - \epsilon_J\rangle}{p_0}
+    .. math:: K = \frac{dp}{d\epsilon} = K_r \left(\frac{p}{p_r}\right)^q \quad\Rightarrow\quad
+        p = p_r \left[\frac{(1-q)\, K_r\, \langle\epsilon - \epsilon_J\rangle}{p_r}
         \right]^{1/(1-q)}
 
     From no pressure on that is a power law, m = 1/(1 - q): linear contacts' is q = 0, Hertz's
@@ -172,11 +172,11 @@ def pressure_dependent(
     Parameters
     ----------
     modulus : float
-        K_0, at the reference pressure [Pa].
+        K_r, at the reference pressure [Pa].
     exponent : float
         q, from 0 to below 1 [-].
     reference_pressure : float
-        p_0 [Pa].
+        p_r [Pa].
     onset_strain : float
         eps_J [-].
 

@@ -124,16 +124,7 @@ def read_compression(
     problems += _twice(rows, name)
     refuse(path, problems)
     loading, remarks = _first_loading(rows)
-    if len(loading) < FEWEST_ROWS:
-        line = rows[0].line if rows else 1
-        refuse(
-            path,
-            [
-                f"line {line}: {len(loading)} rows of first loading, each with a stress above all "
-                f"before it; a fit needs {FEWEST_ROWS}: give rows in the order of the test, from "
-                "the smallest stress on"
-            ],
-        )
+    refuse(path, _too_few(rows, loading))
     stress, value = np.array([row.values for row in loading]).T
     if values == "void_ratio":
         assert initial_void_ratio is not None
@@ -201,9 +192,22 @@ def _numbers(table: Table, name: str) -> tuple[list[Row], list[str]]:
     return rows, problems
 
 
+def _too_few(rows: list[Row], loading: list[Row]) -> list[str]:
+    """Return whether rows of first loading are too few for a fit, and where they end."""
+    if len(loading) >= FEWEST_ROWS:
+        return []
+    falls = next((row for above, row in pairwise(rows) if row.values[0] < above.values[0]), None)
+    where = f"line {rows[0].line}" if falls is None else f"line {falls.line}: the stress falls here"
+    return [
+        f"{where}: {len(loading)} row{'s' * (len(loading) != 1)} of first loading, each with a "
+        f"stress above all before it; a fit needs {FEWEST_ROWS}: give rows in the order of the "
+        "test, from the smallest stress on"
+    ]
+
+
 def _impossible(rows: list[Row], values: Values, initial: float | None) -> list[str]:
     """Return which numbers no test has."""
-    problems, name = [], _NAMES[values]
+    problems, name, above = [], _NAMES[values], []
     for line, (stress, value) in rows:
         if stress < 0:
             problems.append(
@@ -217,10 +221,7 @@ def _impossible(rows: list[Row], values: Values, initial: float | None) -> list[
                     f"{_LARGEST_VOID_RATIO:g}: correct it, or say values"
                 )
             elif initial is not None and value > initial:
-                problems.append(
-                    f"line {line}: void ratio = {value:g} is above initial_void_ratio "
-                    f"{initial:g}: correct either"
-                )
+                above.append((line, value))
         elif value < 0:
             problems.append(
                 f"line {line}: {name} = {value:g} is below 0; compression is positive here, and "
@@ -232,6 +233,14 @@ def _impossible(rows: list[Row], values: Values, initial: float | None) -> list[
                 f"line {line}: {name} = {value:g} would leave no volume; must be below "
                 f"{1 if values == 'strain' else 100}{percent}"
             )
+    if above:
+        line, value = above[0]
+        others = len(above) - 1
+        more = f", as in {others} more row{'s' * (others != 1)}" if others else ""
+        problems.append(
+            f"line {line}: void ratio = {value:g} is above initial_void_ratio {initial:g}{more}: "
+            "correct either"
+        )
     return problems
 
 

@@ -8,6 +8,7 @@ from os import PathLike
 import numpy as np
 from numpy.typing import NDArray
 
+from branchcrush.crushing.resistance import LARGEST
 from branchcrush.files.headers import plain_words
 from branchcrush.files.rows import refuse
 from branchcrush.files.sheets import Line, is_number, read_sheet
@@ -28,7 +29,8 @@ _NAMES = {
     "strain": r"strain|dehnung|deformation|\beps|ε",
     "stress": r"stress|pressure|spannung|druck|contrainte|pression|σ",
 }
-_LIMITS = {"strain": (0.0, 1.0), "stress": (0.0, 1e15)}
+# From jamming on: at larger strains grains overlap by as much as they are wide.
+_LIMITS = {"strain": (0.0, LARGEST), "stress": (0.0, 1e15)}
 MOST_LOADS = 1000
 
 
@@ -118,15 +120,19 @@ def load_problem(load: float, quantity: str) -> str | None:
     >>> load_problem(0.1, "strain") is None
     True
     >>> load_problem(12.0, "strain")
-    'must be from 0, at jamming, to below 1; are these percent? Then say unit: percent'
+    'must be from 0, at jamming, to below 0.5; are these percent? Then say unit: percent'
     """
     low, high = _LIMITS[quantity]
     if low <= load < high:
         return None
     if quantity == "stress":
         return f"must be from 0 to below {high:g} Pa: compression is positive"
-    percent = load >= 1.0 and "; are these percent? Then say unit: percent"
-    return f"must be from 0, at jamming, to below 1{percent or ': compression is positive'}"
+    allowed = f"must be from 0, at jamming, to below {high:g}"
+    if load < low:
+        return f"{allowed}: compression is positive"
+    if load < 1.0:
+        return f"{allowed}: no elastic law is meant for more; end the history before"
+    return f"{allowed}; are these percent? Then say unit: percent"
 
 
 def _column(

@@ -125,7 +125,7 @@ def events_table(form: ModelForm, elasticity: Elasticity, evolution: Evolution) 
     return pd.DataFrame(
         {
             "event": [event.kind for event in events],
-            "load": [event.load for event in events],
+            "load": np.array([event.load for event in events], int),
             "volumetric_strain": strain,
             "elastic_strain": form.elastic_strain(strain, before),
             "stress_Pa": form.stress(strain, before, elasticity),

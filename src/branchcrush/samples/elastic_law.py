@@ -32,7 +32,7 @@ class MeasuredElasticity:
     free: tuple[float, float, float]  # phi_J, m, R^2 of the fit that finds phi_J too; nan for none
     largest: float  # strain of the densest state, from jamming [-]
     on_path: bool  # whether jamming lies after the approach
-    reference_pressure: float  # p_0 [Pa]
+    reference_pressure: float  # p_r [Pa]
     sentences: list[str]  # how phi_J and law were found
     ends: tuple[Elasticity, ...]  # laws that the energies mean with the limits of phi_J
 
@@ -122,7 +122,7 @@ def measured_elasticity(
     pressure_exponent : float
         q of the law whose modulus depends on pressure, from 0 to below 1 [-].
     reference_pressure : float
-        p_0 at which its modulus is told [Pa].
+        p_r at which its modulus is told [Pa].
 
     Returns
     -------

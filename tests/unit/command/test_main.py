@@ -28,8 +28,18 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def study(folder, grains):
-    (folder / "config.yaml").write_text(STUDY.replace("GRAINS", str(grains)))
+MEASURED = """\
+measured:
+  sand:
+    before: {form: single, size: diameter, unit: mm, value: 1}
+    after: {form: single, size: diameter, unit: mm, value: 0.5}
+    ultimate_smallest: {size: diameter, unit: mm, value: 0}
+"""
+WILL_BE = "sand, measured: breakage from its sieve curves -> results/measured.html\n"
+
+
+def study(folder, grains, more=""):
+    (folder / "config.yaml").write_text(STUDY.replace("GRAINS", str(grains)) + more)
 
 
 def printed(capsys, *arguments):
@@ -210,6 +220,12 @@ def test_a_sound_study_is_said_to_be(folder, capsys, place):
     assert "--directory" not in out
 
 
+def test_what_is_made_of_a_measured_material_is_said(folder, capsys):
+    study(folder, 500, MEASURED)
+    _, out, _ = printed(capsys, "check")
+    assert f"500 grains, 2 packings\n{WILL_BE}sound: " in out
+
+
 def test_the_commands_of_a_sound_study_name_its_folder(folder, capsys, monkeypatch):
     study(folder, 500)
     monkeypatch.chdir(folder.parent)
@@ -267,12 +283,13 @@ def test_a_configuration_has_to_say_its_unit_whatever_the_header_says(folder, ca
 
 
 def test_a_preview_is_printed_and_written_for_grains_that_a_run_refuses(folder, capsys):
-    study(folder, 60)
+    study(folder, 60, MEASURED)
     assert printed(capsys, "check")[0] == 1
     code, out, err = printed(capsys, "preview", "--cores", "1")
     assert (code, err) == (0, "")
     assert out == (folder / "results/preview.txt").read_text(encoding="utf-8")
     assert out.startswith("mine: 60 grains, 2 packings")
+    assert out.endswith(WILL_BE)
     assert "the run refuses this unless allow_unrepresentative" in " ".join(out.split())
     assert (folder / "results/figures/mine/preview.png").stat().st_size > 1000
 

@@ -22,7 +22,11 @@ SAMPLE = {
 
 
 def study(tmp_path, history):
-    raw = {"samples": {"sand": SAMPLE}, "thermodynamics": {"history": history}}
+    return plain(tmp_path, {"history": history})
+
+
+def plain(tmp_path, thermodynamics):
+    raw = {"samples": {"sand": SAMPLE}, "thermodynamics": thermodynamics}
     return checked_study(raw, tmp_path).thermodynamics.model_dump()["history"]
 
 
@@ -39,7 +43,7 @@ def test_lists(tmp_path, history, read):
 
 
 def test_none(tmp_path):
-    assert history_loads(study(tmp_path, {})) is None
+    assert history_loads(plain(tmp_path, {})) is None
 
 
 def test_file(tmp_path):
@@ -58,6 +62,9 @@ def test_file(tmp_path):
         ({"strain": []}, "must be a list of 1 to 1000 numbers"),
         ({"strain": 0.1}, "must be a list of 1 to 1000 numbers"),
         ({"strain": [0.1, "x"]}, "number 2 is none"),
+        ({"strain": [0.1, 0.6]}, "number 2 is 0.6, .*no elastic law is meant for more"),
+        ({}, "must have one of strain, .*; none is given"),
+        ({"stress": None}, "must have one of strain, .*; none is given"),
         ({"strain": [0.1, 5.0]}, "number 2 is 5, .*are these percent"),
         ({"stress": [-1.0]}, "number 1 is -1, must be from 0"),
         ({"strain": [0.1], "unit": "percent"}, "column and unit are for a file"),

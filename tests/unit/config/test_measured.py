@@ -22,7 +22,7 @@ COMPRESSION = {
     "stress_unit": "MPa",
     "values": "strain",
     "lateral_stress_ratio": 0.45,
-    "contact": {"law": "linear"},
+    "contact": {"law": "linear", "normal_stiffness": 1e6},
 }
 CURVE = "stress [MPa],strain\n" + "\n".join(f"{2**k},{0.01 * k}" for k in range(1, 8))
 
@@ -115,11 +115,12 @@ def test_a_material_that_makes_no_sense_is_refused(problems, changes, said):
     ("changes", "said"),
     [
         ({"stress_unit": "bar"}, "compression.stress_unit = 'bar': must be 'Pa', 'kPa' or 'MPa'"),
-        ({"values": "void_ratio"}, "initial_void_ratio = nothing: must be the void ratio at the"),
+        ({"values": "void_ratio"}, "initial_void_ratio: missing; must be the void ratio at the"),
         ({"columns": [1, 2, 3]}, "columns = [1, 2, 3]: must be a list of two columns"),
         ({"sheet": 0}, "sheet = 0: must be the name of a sheet"),
         ({"lateral_stress_ratio": 1.5}, "lateral_stress_ratio = 1.5: must be a number above 0"),
         ({"contact": {"law": "hertz"}}, "compression.contact.young_modulus: missing"),
+        ({"contact": {"law": "linear"}}, "contact.normal_stiffness: missing; give that of the"),
         ({"file": "none.csv"}, "compression.file = 'none.csv': there is no such file"),
         ({"stress_unit": "kPa"}, "compression.file: curve.csv, the file and the keys disagree"),
         ({"values": "percent_strian"}, "values = 'percent_strian': must be 'void_ratio'"),
@@ -129,6 +130,43 @@ def test_a_material_that_makes_no_sense_is_refused(problems, changes, said):
 def test_a_compression_that_makes_no_sense_is_refused(problems, changes, said):
     material = {**MATERIAL, "compression": {**COMPRESSION, **changes}}
     assert any(said in line for line in problems(material))
+
+
+SINGLE = {"form": "single", "size": "diameter", "unit": "mm"}
+# Means by mass of ln D, in mm: of one size its own, of the ultimate grading from 0 to 1 mm with
+# alpha = 2.6 ln 1 - 1/(3 - 2.6) = -2.5; so B = ln(1/D)/2.5.
+ONE_SIZE = {
+    "before": {**SINGLE, "value": 1.0},
+    "ultimate_smallest": {"size": "diameter", "unit": "mm", "value": 0},
+}
+
+
+@pytest.mark.parametrize(
+    ("diameter", "said"),
+    [
+        (2.0, "sand.after: coarser than before, Einav's B = -0.277, and crushing makes none"),
+        (0.05, "= 0 mm: the grading after is finer than the ultimate one, Einav's B = 1.2, which"),
+    ],
+)
+def test_a_grading_after_that_crushing_does_not_lead_to_is_refused(problems, diameter, said):
+    (line,) = problems({**ONE_SIZE, "after": {**SINGLE, "value": diameter}})
+    assert said in line
+    assert ("exchanged?" in line) == (diameter > 1)
+    assert ("raise ultimate_alpha" in line) == (diameter < 1)
+
+
+def test_a_smallest_size_above_the_grading_after_is_to_be_lowered(problems):
+    smallest = {**SMALLEST, "value": 0.9}
+    after = {**SINGLE, "value": 0.5}
+    (line,) = problems({"before": GRADING, "after": after, "ultimate_smallest": smallest})
+    assert "sand.ultimate_smallest.value = 0.9 mm: the grading after is finer" in line
+    assert "lower it, or raise ultimate_alpha" in line
+
+
+@pytest.mark.parametrize("diameter", [1.0, 1.04, 0.09])
+def test_a_grading_after_that_differs_as_two_sieve_analyses_do_is_accepted(diameter):
+    after = {**SINGLE, "value": diameter}
+    assert checked_study(study({**ONE_SIZE, "after": after}))
 
 
 def test_a_compression_needs_a_smallest_grain_to_crush_to(problems):

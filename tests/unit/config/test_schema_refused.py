@@ -113,6 +113,29 @@ def test_message_names_the_key_its_value_and_what_is_allowed(path, value, shown,
     assert allowed in message.removeprefix(f"config: {path} = {shown}: ")
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "choice", "other"),
+    [
+        ("elastic_strain", 0.02, "resistance: critical_energy", "elastic_strain"),
+        ("strength_exponent", 0.5, "resistance: critical_energy", "elastic_strain"),
+        ("critical_energy", 3e5, "resistance: elastic_strain", "critical_energy"),
+        ("hardening_exponent", 1.5, "resistance: elastic_strain", "critical_energy"),
+        ("pressure_exponent", 0.3, "elasticity: hertz", "pressure_dependent"),
+    ],
+)
+def test_a_key_without_effect_is_refused_where_it_is_given(key, value, choice, other):
+    chooser, chosen = choice.split(": ")
+    raw = config_with(f"thermodynamics.{chooser}", chosen)
+    checked_config(raw)
+    raw["thermodynamics"][key] = value
+    assert message_of(raw) == (
+        f"config: thermodynamics.{key} = {value:g}: has no effect with {choice}: leave it out, or "
+        f"say {chooser}: {other}"
+    )
+    raw["thermodynamics"][chooser] = other
+    assert getattr(checked_config(raw).thermodynamics, key) == value
+
+
 @pytest.mark.parametrize(("seeds", "most"), [(3, 3), ([7, 2], 2)])
 def test_more_refined_seeds_than_seeds_are_refused(seeds, most):
     config = config_with("samples.mine.seeds", seeds)

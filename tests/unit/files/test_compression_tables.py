@@ -106,12 +106,22 @@ def test_strains_of_no_compression_are_refused(read):
     assert "strain = -0.1 is below 0" in refused(read, "1,-.1\n2,.1\n4,.2\n8,.3\n9,.4", "strain")
 
 
+def test_an_initial_void_ratio_below_those_of_the_file_is_one_problem(read):
+    (line,) = refused(read, f"{HEADER}\n{ROWS}", initial=0.7).splitlines()
+    assert "line 2: void ratio = 0.8 is above initial_void_ratio 0.7, as in 3 more rows" in line
+
+
+def test_stresses_that_fall_are_told_where_they_begin_to(read):
+    said = refused(read, f"{HEADER}\n1,.7\n2,.68\n1.5,.66\n1,.65\n.5,.64")
+    assert "line 4: the stress falls here: 2 rows of first loading" in said
+
+
 def test_all_problems_of_a_file_are_told_at_once(read):
     assert len(refused(read, f"{HEADER}\n{ROWS}\n-1,0.4\n32,90\nx,1").splitlines()) == 3
 
 
 def test_too_few_rows_of_first_loading_and_rows_turned_round_are_refused(read):
     turned = "\n".join(reversed(ROWS.splitlines()[1:]))
-    assert "1 rows of first loading" in refused(read, f"{HEADER}\n{turned}")
+    assert "line 3: the stress falls here: 1 row of first" in refused(read, f"{HEADER}\n{turned}")
     assert "a fit needs 5" in refused(read, f"{HEADER}\n1,.7\n2,.6")
     assert "no numbers in the file" in refused(read, f"{HEADER}\n")

@@ -33,6 +33,7 @@ def test_loads_are_read_in_their_order(tmp_path, text, quantity, unit, loads):
         ("stress [kPa]\n1\n", "stress", "Pa", "line 1: the words above the column say kPa"),
         ("strain [%]\n1\n", "strain", "-", "say percent, but unit: -"),
         ("1\n5\n", "strain", "-", "line 1: strain = 1 -: .*are these percent"),
+        ("0.1\n0.5\n", "strain", "-", "line 2: strain = 0.5 -: .*below 0.5: no elastic law"),
         ("0.1\n-0.1\n", "strain", "-", "line 2: strain = -0.1 -: .*compression is positive"),
         ("1e5\n-1\n", "stress", "kPa", "line 2: stress = -1 kPa: must be from 0"),
         ("0.1\nnone\nnan\n", "strain", "-", "(?s)line 2: strain = 'none'.*line 3: strain = 'nan'"),

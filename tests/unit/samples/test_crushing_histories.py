@@ -45,6 +45,12 @@ def test_a_history_of_stress_and_its_jump():
     assert 0.0 < jump["dissipated_J_per_m3"] <= rows["dissipated_J_per_m3"].iloc[-1]
 
 
+def test_loads_of_events_are_counted_in_whole_numbers_also_where_none_happens():
+    _, evolution = history_curves(FORM, LAW, RESISTANCE, "strain", np.array([0.5 * YIELD]))
+    events = events_table(FORM, LAW, evolution)
+    assert events.empty and events["load"].dtype == int
+
+
 def test_bands_are_the_curves_at_the_ends():
     stiff, soft = PowerLawElasticity(1.2, 1.0), PowerLawElasticity(0.9, 1.0)
     rows, _ = form_curves(FORM, LAW, RESISTANCE, 0.2, fixed=(0.5,))
