@@ -105,7 +105,7 @@ def test_the_limits_of_jamming_have_laws_of_their_own():
 
 
 def test_too_few_states():
-    with pytest.raises(FitError, match="no elastic law in the loading path: 3 states"):
+    with pytest.raises(FitError, match="in the loading path: of all packings 3 states"):
         measured_elasticity([path_of(solid_fraction=DENSE[:3])], KNOWN)
 
 
