@@ -207,11 +207,39 @@ def test_a_limit_of_elastic_strain_is_held_and_gives_the_compression_line(strain
     crushing = path[path["crushing"] > 0].iloc[:-10]
     assert_allclose(crushing["elastic_strain"], 0.0125, rtol=1e-6)
     rows = of(table, "moving_jamming")
+    # Beyond the densest mixture C does not grow.
+    costs = rows["driving_force_over_pressure"] < -1e-9
+    assert costs.any() and rows.loc[costs, ["void_ratio", "yield_stress_Pa"]].isna().all(axis=None)
+    rows = rows[~costs]
     density = rows["jamming_solid_fraction"]
     assert_allclose(rows["void_ratio"], (1 - 0.0125) / density - 1, rtol=1e-8)
     stress = rows["stiffness_ratio"] * MODULUS * 0.0125**1.5
     assert_allclose(rows["yield_stress_Pa"], stress, rtol=1e-2)
     assert summary["least_hardening_exponent"] is None
+
+
+def test_what_costs_energy_at_all_c_never_yields_and_what_ends_at_one_is_complete(forms, strained):
+    # With every contact number alike densities of branches rise as grains become finer.
+    _, table, summary = strained
+    costly = [name for name in FORMS if summary["forms"][name]["inadmissible_from"] == 0.0]
+    assert costly
+    for name in costly:
+        told = summary["forms"][name]
+        assert told["yield_strain"] is told["yield_stress_Pa"] is told["hardens_at_onset"] is None
+        assert not told["yields_on_path"]
+        assert np.isnan(of(table, name)["yield_stress_Pa"].iloc[0])
+    # At a limit of the elastic strain nothing of the paper's form hardens: it goes on at once.
+    assert summary["forms"]["paper"]["crushing_at_end"] == 1.0
+    events = crushing_model(
+        alone(forms, "paper"),
+        measured_elasticity([path_to(LAST)]),
+        FIT.exponent,
+        9e-4,
+        LAW,
+        settings(resistance="elastic_strain", form="paper"),
+    )[3]
+    assert events["event"].iloc[-1] == "complete"
+    assert events["crushing_after"].iloc[-1] == 1.0
 
 
 def test_energies_beside_each_other(made):
@@ -279,7 +307,7 @@ def test_every_form_follows_the_history_of_the_user(made):
         most = rows["work_J_per_m3"].max()
         assert_allclose(rows["work_J_per_m3"], kept, atol=1e-10 * most)
     assert set(made.events["path"]) == {"crushing", "history"}
-    assert set(made.events["event"]) <= {"yield", "jump", "lock"}
+    assert set(made.events["event"]) <= {"yield", "jump", "complete", "lock"}
 
 
 def test_one_packing_has_no_bands_and_says_so(made):
