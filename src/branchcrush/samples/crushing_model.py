@@ -113,7 +113,7 @@ def crushing_model(
             of_form.append(of_own)
             found["sentences"] += sentence
         if name == settings["form"]:
-            rows = with_bands(rows, ends, resistance, history)
+            rows = with_bands(rows, ends, resistance, history, len(measured.ends_without_law))
         events += [part.assign(form=name) for part in of_form]
         if name == "paper":
             energy = rows["elastic_energy_J_per_m3"]

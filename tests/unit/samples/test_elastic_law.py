@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from branchcrush.errors import FitError
 from branchcrush.samples.elastic_law import certified_jamming, measured_elasticity
 from branchcrush.samples.rearrangement import elastic_law_table, rearrangement_sentence
+from branchcrush.samples.thermodynamics import bands_sentence
 from branchcrush.statistics.intervals import Interval
 
 JAMMING, MODULUS, EXPONENT = 0.64, 300e6, 1.5
@@ -65,7 +66,7 @@ def test_another_jamming_point_changes_the_exponent_and_the_fit_says_so():
 def test_the_free_fit_is_the_fallback(certified, reason):
     found = measured_elasticity([path_of()], certified)
     assert_allclose([found.jamming, found.law.exponent], [JAMMING, EXPONENT], rtol=1e-5)
-    assert found.ends == ()
+    assert found.ends == {}
     assert found.sentences[0].startswith(
         f"φ_J of the elastic law is fitted to the energies, 0.6400: {reason}"
     )
@@ -99,9 +100,31 @@ def test_the_measured_law_goes_through_the_mean_of_the_states():
 
 def test_the_limits_of_jamming_have_laws_of_their_own():
     found = measured_elasticity([path_of()], KNOWN)
-    low, high = found.ends
+    low, high = found.ends["low"], found.ends["high"]
+    assert found.ends_without_law == {}
     # From a looser jamming point the same energy belongs to a larger strain.
     assert low.pressure(0.1) < found.law.pressure(0.1) < high.pressure(0.1)
+
+
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        # States of four strains: from 0.739 on too few of them are left.
+        ((0.64, 0.739), "at the lower end of the interval of φ_J; from the upper end, 0.7390, th"),
+        ((0.738, 0.739), "between 0.7380 and 0.7390, but from neither end is there an elastic law"),
+        ((0.63, 0.65), "at both ends of the interval of φ_J, one at a time; n is not in the form"),
+        ((np.nan, np.nan), "no interval of φ_J or n is known"),
+    ],
+)
+def test_ends_of_jamming_without_a_law_are_told_and_no_band_is_said_to_rest_on_them(limits, words):
+    found = measured_elasticity([path_of()], Interval(JAMMING, *limits))
+    assert words in bands_sentence(found, False, "einav")
+    assert set(found.ends_without_law.values()) == {
+        limit for limit in limits if limit in (0.738, 0.739)
+    }
+    if set(limits) == {0.64, 0.739}:
+        both = bands_sentence(found, True, "paper")
+        assert "interval of φ_J and both of that of n, one at a time; from the upper end" in both
 
 
 def test_too_few_states():
