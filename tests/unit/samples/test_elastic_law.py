@@ -170,3 +170,33 @@ def test_stress_is_what_the_law_gives_back_and_what_rearrangement_takes():
     sentence = rearrangement_sentence(table)
     assert "gives back dΨ₀/dε, 80 % beyond a strain of 0.08 and 80 % nearer to jamming" in sentence
     assert "is lost: 20.0 % of the work" in sentence
+    assert "above 100 %" not in sentence
+
+
+@pytest.mark.parametrize(
+    ("states", "words"),
+    [
+        (1, "own energies 1 loaded state is too few."),
+        (4, "own energies 4 loaded states are too few."),
+        (5, "the states themselves give back −dE/dV, 75 to 130 %, above 100 % where states are"),
+    ],
+)
+def test_slopes_of_too_few_states_are_left_out(states, words):
+    table = pd.DataFrame(
+        {
+            "volumetric_strain": [0.01, 0.02, 0.03, 0.05, 0.07][:states],
+            "mean_stress_Pa": 1e6,
+            "law_stress_Pa": 0.9e6,
+            # The first and the last rest on one side alone.
+            "energy_slope_Pa": np.array([3.6e6, 1.3e6, 0.75e6, 0.8e6, 2e6])[:states],
+            "work_J_per_m3": 2.0,
+            "dissipated_J_per_m3": 0.5,
+        }
+    )
+    sentence = rearrangement_sentence(table)
+    assert words in sentence
+    # No half of the strains is told of where there is no other.
+    assert "dΨ₀/dε, 90 %; " in sentence
+    assert "360" not in sentence and "25.0 % of the work" in sentence
+    above = rearrangement_sentence(table.assign(law_stress_Pa=1.2e6))
+    assert "dΨ₀/dε, 120 %, above 100 % where it misses the states; " in above
