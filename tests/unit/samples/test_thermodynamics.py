@@ -8,6 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.config.crushing import Thermodynamics
+from branchcrush.crushing.curves import LinearCurve
+from branchcrush.crushing.forms import ModelForm
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import single
@@ -218,28 +220,31 @@ def test_a_limit_of_elastic_strain_is_held_and_gives_the_compression_line(strain
     assert summary["least_hardening_exponent"] is None
 
 
-def test_what_costs_energy_at_all_c_never_yields_and_what_ends_at_one_is_complete(forms, strained):
-    # With every contact number alike densities of branches rise as grains become finer.
-    _, table, summary = strained
-    costly = [name for name in FORMS if summary["forms"][name]["inadmissible_from"] == 0.0]
-    assert costly
-    for name in costly:
-        told = summary["forms"][name]
-        assert told["yield_strain"] is told["yield_stress_Pa"] is told["hardens_at_onset"] is None
-        assert not told["yields_on_path"]
-        assert np.isnan(of(table, name)["yield_stress_Pa"].iloc[0])
-    # At a limit of the elastic strain nothing of the paper's form hardens: it goes on at once.
-    assert summary["forms"]["paper"]["crushing_at_end"] == 1.0
-    events = crushing_model(
-        alone(forms, "paper"),
-        measured_elasticity([path_to(LAST)]),
-        FIT.exponent,
-        9e-4,
-        LAW,
-        settings(resistance="elastic_strain", form="paper"),
-    )[3]
+def strained_alone(forms, name, form):
+    """Return summary and events of one form at a limit of the elastic strain."""
+    keys = settings(resistance="elastic_strain", form=name)
+    only = replace(alone(forms, name), made={name: form})
+    measured = measured_elasticity([path_to(LAST)])
+    return crushing_model(only, measured, FIT.exponent, 9e-4, LAW, keys)[1:]
+
+
+def test_what_costs_energy_at_all_c_never_yields(forms):
+    table, summary, events = strained_alone(forms, "density", ModelForm(LinearCurve(-0.2)))
+    told = summary["forms"]["density"]
+    assert told["inadmissible_from"] == 0.0
+    assert told["yield_strain"] is told["yield_stress_Pa"] is told["hardens_at_onset"] is None
+    assert not told["yields_on_path"] and told["crushing_at_end"] == 0.0
+    assert table[["yield_stress_Pa", "void_ratio"]].isna().all(axis=None)
+    assert events["event"].tolist() == ["lock"]
+
+
+def test_what_crushes_to_the_ultimate_grading_ends_at_one_and_is_complete(forms):
+    _, summary, events = strained_alone(forms, "paper", forms.made["paper"])
+    assert summary["crushing_at_end"] == 1.0
     assert events["event"].iloc[-1] == "complete"
-    assert events["crushing_after"].iloc[-1] == 1.0
+    assert events["crushing"].iloc[-1] == events["crushing_after"].iloc[-1] == 1.0
+    # g falls at a strain that is held.
+    assert summary["hardens_at_onset"] is False and summary["forms"]["paper"]["snaps"]
 
 
 def test_energies_beside_each_other(made):

@@ -490,6 +490,8 @@ def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
     html = page({"model": model})
     assert "By this form crushing never begins." in html
     assert "Crushing begins at" not in html
+    html = page({"model": {**model, "form": "density"}})
+    assert "crushing never begins: it would cost elastic energy from the first." in html
 
 
 def test_a_limit_of_elastic_strain_is_told_with_its_numbers(page):
