@@ -66,7 +66,8 @@ def fit_elasticity(
     loaded = np.unique(phi[(energy > _LOADED * largest) & (phi > (jamming or 0.0))])
     if loaded.size < FEWEST_STATES:
         raise ValueError(
-            f"{loaded.size} states carry load, the fit needs {FEWEST_STATES}: compress or save more"
+            f"of all packings {_states(loaded.size, 'carries', 'carry')} load, the fit needs "
+            f"{FEWEST_STATES}: compress or save more"
         )
     root = np.sqrt(energy / largest)
 
@@ -164,7 +165,8 @@ def interpolated_elasticity(
     order = np.argsort(phi)
     order = order[phi[order] > jamming]
     strain, density = 1 - jamming / phi[order], jamming / phi[order] * energy[order]
-    reason = f"{strain.size} states lie above phi_J = {jamming:.4f}, it needs {FEWEST_KNOTS}"
+    lie = _states(strain.size, "lies", "lie")
+    reason = f"{lie} above phi_J = {jamming:.4f}, it needs {FEWEST_KNOTS}"
     for left_out in range(strain.size - FEWEST_KNOTS + 1):
         try:
             states = tuple(strain[left_out:].tolist()), tuple(density[left_out:].tolist())
@@ -172,6 +174,11 @@ def interpolated_elasticity(
         except ValueError as error:
             reason = str(error)
     raise ValueError(f"energies give no law by interpolation: {reason}")
+
+
+def _states(number: int, one: str, many: str) -> str:
+    """Return a number of states with what one does or many do."""
+    return f"1 state {one}" if number == 1 else f"{number} states {many}"
 
 
 def _usable_states(solid_fraction: ArrayLike, energy_density: ArrayLike) -> tuple[NDArray, NDArray]:

@@ -27,7 +27,8 @@ _EXTREMES = np.cos(np.pi * np.arange(_ORDER + 1) / _ORDER)
 class Event(NamedTuple):
     """What happened at one load."""
 
-    kind: str  # "yield" at first; "jump"; "lock" where C grows no more
+    # "yield" at first; "jump"; "complete" at the last C, 1; "lock" where C grows no more before it.
+    kind: str
     strain: float  # eps where it began [-]
     crushing: float  # C before [-]
     crushing_after: float  # C after; more where it jumped [-]
@@ -141,8 +142,9 @@ class _Walk:
         while float(line.load_at(self.crushing)) < target:
             yields_at = float(line.strain_at(self.crushing))
             if self.crushing >= line.looks[-1]:
-                if not self.events or self.events[-1].kind != "lock":
-                    self._tell("lock", yields_at)
+                ends = "complete" if line.whole else "lock"
+                if not self.events or self.events[-1].kind != ends:
+                    self._tell(ends, yields_at)
                 break
             if not self.events:
                 self._tell("yield", yields_at)

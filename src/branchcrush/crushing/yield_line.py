@@ -41,6 +41,8 @@ class YieldLine:
         C on every piece, and the loads at which they yield; infinite where one never does.
     known : dict of float
         Total strains at which single C yield, each looked for once.
+    whole : bool
+        Whether every C of the form yields and sets energy free, up to its last.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class YieldLine:
         self.pieces = np.union1d(knots, rest[rest < knots[-1]])
         if knots[-1] == 1.0:  # there a resistance may be infinite
             self.pieces = self.pieces[:-1]
+        self.whole = True
         self._look()
         end = self._last_yielding()
         if end < self.pieces[-1]:
@@ -78,6 +81,7 @@ class YieldLine:
         return line
 
     def _end_at(self, end: float, near: ArrayLike = ()) -> None:
+        self.whole = False
         pieces = np.union1d(self.pieces, near)
         self.pieces = np.append(pieces[pieces < end], end)
         self._look()

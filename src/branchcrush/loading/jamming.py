@@ -72,7 +72,8 @@ def jamming_point(
     above = phi > loose
     phi, root = phi[above], stress[above] ** (1.0 / contact_exponent)
     if phi.size < _FEWEST:
-        raise FitError(f"{phi.size} states carry load; {_FEWEST} are needed for a jamming point")
+        carry = "state carries" if phi.size == 1 else "states carry"
+        raise FitError(f"{phi.size} {carry} load; {_FEWEST} are needed for a jamming point")
     near = phi <= max(phi[0] + _WINDOW, phi[_FEWEST - 1])
     first, phi, root = phi[0], phi[near], root[near]
     lines = [_zero(phi, root, degree) for degree in ((1, 2) if phi.size > _FEWEST else (1,))]

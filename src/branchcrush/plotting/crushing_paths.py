@@ -61,7 +61,8 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
     path = _path(curves, form)
     strain = 100 * path["volumetric_strain"]
     ax.plot(strain, path["stress_Pa"] / 1e6, "k", lw=1.6, label="C evolves")
-    if "stress_low_Pa" in path and path["stress_low_Pa"].notna().any():
+    band = path.filter(["stress_low_Pa", "stress_high_Pa"])
+    if len(band.columns) and band.notna().all(axis=1).any():
         # Of the way in alone: on the way back a band would lie over its own.
         way_in = slice(0, int(path["volumetric_strain"].to_numpy().argmax()) + 1)
         low, high = (path[f"stress_{end}_Pa"][way_in] / 1e6 for end in ("low", "high"))

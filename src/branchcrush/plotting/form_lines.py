@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FORMS
+from branchcrush.study.crushing_words import extrapolated_from
 
 _SHORT = 50.0  # ends of an axis that has few decades
 # Where C jumps under stress.
@@ -199,12 +200,11 @@ def extrapolated(forms: Table, model: Mapping) -> list[str]:
     >>> print(*extrapolated(forms, {"form": "paper", "largest_strain": 0.1}))
     From C = 0.50 on the front form yields at elastic strains above 10 %, beyond the measured law.
     """
-    rows = forms[forms["form"] == model["form"]]
-    beyond = rows.loc[rows["yield_elastic_strain"] > model["largest_strain"], "crushing"]
-    if beyond.empty:
+    begin = extrapolated_from(forms, model)
+    if begin is None:
         return []
     return [
-        f"From C = {beyond.min():.2f} on the front form yields at elastic strains above "
+        f"From C = {begin:.2f} on the front form yields at elastic strains above "
         f"{100 * model['largest_strain']:.2g} %, beyond the measured law."
     ]
 

@@ -28,6 +28,7 @@ def with_bands(
     ends: Sequence[End],
     resistance: Resistance,
     history: tuple[Control, NDArray] | None = None,
+    ends_without_law: int = 0,
 ) -> pd.DataFrame:
     """Return curves with the least and the largest that they are at the ends of intervals.
 
@@ -44,21 +45,29 @@ def with_bands(
     resistance : Resistance
     history : tuple, optional
         What loads are, and the loads.
+    ends_without_law : int
+        Of the interval of phi_J, how many. With one, the first of `ends` is the other, and tells on
+        which side of the curve nothing is known; with both there are no bands.
 
     Returns
     -------
     DataFrame
-        With the columns `BANDS`; empty where a load is too large for the law at an end.
+        With the columns `BANDS`; empty where a load is too large for the law at an end, and on the
+        side of an end without a law.
     """
     low, high = {}, {}
     for path, part in rows.groupby("path", sort=False):
         values = [part[list(_BANDED)].to_numpy()]
         for end in ends:
             values.append(_at_end(str(path), part, *end, resistance, history))
-        known = np.array(values) if ends else np.full((1, len(part), 2), np.nan)
+        known, bands = np.array(values), ends and ends_without_law < 2
+        least, most = (side if bands else side * np.nan for side in (known.min(0), known.max(0)))
+        if bands and ends_without_law:
+            least = np.where(known[1] < known[0], least, np.nan)
+            most = np.where(known[1] > known[0], most, np.nan)
         for place, name in enumerate(_BANDED):
-            low.setdefault(name, []).append(known[..., place].min(axis=0))
-            high.setdefault(name, []).append(known[..., place].max(axis=0))
+            low.setdefault(name, []).append(least[:, place])
+            high.setdefault(name, []).append(most[:, place])
     columns = [side[name] for name in _BANDED for side in (low, high)]
     order = np.concatenate([part.index for _, part in rows.groupby("path", sort=False)])
     made = {

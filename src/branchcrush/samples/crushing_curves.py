@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.crushing.admissibility import force_over_stress, yielding_strain
 from branchcrush.crushing.elasticity import Elasticity
@@ -16,7 +16,12 @@ from branchcrush.crushing.energy_ratios import (
 from branchcrush.crushing.evolution import Evolution, evolve
 from branchcrush.crushing.forms import ModelForm
 from branchcrush.crushing.resistance import Resistance
-from branchcrush.crushing.yield_line import Control, YieldLine, compression_line
+from branchcrush.crushing.yield_line import (
+    CompressionLine,
+    Control,
+    YieldLine,
+    compression_line,
+)
 
 FIXED_CRUSHING = (0.0, 0.25, 0.5, 0.75, 1.0)
 # States on the way in and back, at each fixed C, and places of C.
@@ -25,6 +30,8 @@ _IN, _BACK, _FIXED, _PLACES = 60, 10, 40, 51
 _UNLOADED_TO = 0.6
 # So near to C = 1 crushing is complete; at it a limiting density may be reached with a jerk.
 _COMPLETE = 1.0 - 1e-9
+# Driving force over pressure that rounding leaves where nothing changes.
+_NOTHING = 1e-9
 # Beyond the last load that crushing goes on at, so that it does.
 _BEYOND = 1.0 + 1e-9
 
@@ -129,11 +136,32 @@ def events_table(form: ModelForm, elasticity: Elasticity, evolution: Evolution) 
             "volumetric_strain": strain,
             "elastic_strain": form.elastic_strain(strain, before),
             "stress_Pa": form.stress(strain, before, elasticity),
-            "crushing": before,
-            "crushing_after": after,
+            "crushing": complete_or(before),
+            "crushing_after": complete_or(after),
             "dissipated_J_per_m3": np.array([event.dissipated for event in events]),
         }
     )
+
+
+def complete_or(crushing: ArrayLike) -> NDArray:
+    """Return C as it is, and 1 where it is complete but for the rounding of the yield line.
+
+    Parameters
+    ----------
+    crushing : array_like
+        C, any shape [-].
+
+    Returns
+    -------
+    ndarray
+        [-]
+
+    Examples
+    --------
+    >>> complete_or([0.5, 1.0 - 2.0**-40]).tolist()
+    [0.5, 1.0]
+    """
+    return np.where(np.asarray(crushing) > _COMPLETE, 1.0, crushing)
 
 
 def _end(line: YieldLine, largest: float) -> tuple[float, float]:
@@ -179,7 +207,7 @@ def _states(
             "path": path,
             "volumetric_strain": strain,
             "elastic_strain": elastic,
-            "crushing": crushing,
+            "crushing": complete_or(crushing),
             "elastic_energy_J_per_m3": elasticity.energy(elastic),
             "free_energy_J_per_m3": form.free_energy(strain, crushing, elasticity),
             "stress_Pa": form.stress(strain, crushing, elasticity),
@@ -220,6 +248,9 @@ def form_table(
     strain = yielding_strain(form, elasticity, resistance, largest, below)
     ratio = ratio_at_equal_strain(form, crushing)
     stress = float(elasticity.pressure(largest))
+    force = force_over_stress(form, elasticity, strain, below)
+    # Where crushing would cost energy C does not grow, whatever resists.
+    line = CompressionLine(*(np.where(force < -_NOTHING, np.nan, values) for values in line))
     return pd.DataFrame(
         {
             "crushing": crushing,
@@ -231,7 +262,7 @@ def form_table(
             "energy_at_equal_solid_fraction": ratio_at_equal_total_strain(
                 form, crushing, elasticity, largest
             ),
-            "driving_force_over_pressure": force_over_stress(form, elasticity, strain, below),
+            "driving_force_over_pressure": force,
             "yield_elastic_strain": line.elastic_strain,
             "yield_stress_Pa": line.stress,
             "void_ratio": line.void_ratio,

@@ -17,6 +17,7 @@ from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.samples.crushing_bands import BANDS, End, with_bands
 from branchcrush.samples.crushing_curves import (
     FIXED_CRUSHING,
+    complete_or,
     events_table,
     form_curves,
     form_table,
@@ -112,7 +113,7 @@ def crushing_model(
             of_form.append(of_own)
             found["sentences"] += sentence
         if name == settings["form"]:
-            rows = with_bands(rows, ends, resistance, history)
+            rows = with_bands(rows, ends, resistance, history, len(measured.ends_without_law))
         events += [part.assign(form=name) for part in of_form]
         if name == "paper":
             energy = rows["elastic_energy_J_per_m3"]
@@ -128,7 +129,7 @@ def crushing_model(
         told[name] = {
             "reason": None,
             **found,
-            "crushing_at_end": float(evolution.crushing.max()),
+            "crushing_at_end": complete_or(evolution.crushing.max()).item(),
         }
     nothing = {**dict.fromkeys(told[next(iter(told))]), "snaps": [], "sentences": []}
     for name, reason in forms.missing.items():
@@ -221,7 +222,9 @@ def _told(
     """Return what is told of a form."""
     found = admissibility(form, measured.law, resistance, measured.largest)
     strain = float(resistance.yield_strain(0.0, form, measured.law))
-    yields = np.isfinite(strain)
+    end = found.costs[0][0] if found.costs else None
+    # What costs energy from the beginning on never begins, at whatever strain it would yield.
+    yields = np.isfinite(strain) and end != 0.0
     least = None
     if yields and isinstance(resistance, CriticalEnergy):
         least = least_hardening_exponent(form, measured.law, strain)
@@ -229,13 +232,13 @@ def _told(
     return {
         "theta": 1.0 - float(form.factor.value(1.0)) if stays else None,
         "admissible": found.admissible,
-        "inadmissible_from": found.costs[0][0] if found.costs else None,
+        "inadmissible_from": end,
         "snaps": [snap.crushing for snap in found.snaps],
         "least_hardening_exponent": least,
         "hardens_at_onset": found.hardens_at_onset if yields else None,
         "yield_strain": strain if yields else None,
         "yield_stress_Pa": float(measured.law.pressure(strain)) if yields else None,
-        "yields_on_path": bool(strain < measured.largest),
+        "yields_on_path": bool(yields and strain < measured.largest),
         "sentences": [*found.sentences, *sentences],
     }
 

@@ -34,7 +34,19 @@ class MeasuredElasticity:
     on_path: bool  # whether jamming lies after the approach
     reference_pressure: float  # p_r [Pa]
     sentences: list[str]  # how phi_J and law were found
-    ends: tuple[Elasticity, ...]  # laws that the energies mean with the limits of phi_J
+    # Laws that the energies mean with the limits of phi_J, "low" and "high"; none where there is no
+    # such limit, or no law from it.
+    ends: Mapping[str, Elasticity]
+
+    @property
+    def ends_without_law(self) -> dict[str, float]:
+        """The limits of phi_J that are known and give no law, by their names [-]."""
+        limits = dict(zip(("low", "high"), self.jamming_interval, strict=True))
+        return {
+            name: limit
+            for name, limit in limits.items()
+            if np.isfinite(limit) and name not in self.ends
+        }
 
     def summary(self) -> dict[str, Any]:
         """Return what `thermodynamics.json` tells of it."""
@@ -177,10 +189,11 @@ def measured_elasticity(
     ]
     if kind == "measured":
         sentences += _of_interpolation(law, left_out, largest)
-    ends = []
-    for limit in limits:
+    ends = {}
+    for name, limit in zip(("low", "high"), limits, strict=True):
         try:
-            ends += [law_from(float(limit))[0]] if np.isfinite(limit) else []
+            if np.isfinite(limit):
+                ends[name] = law_from(float(limit))[0]
         except ValueError as error:
             sentences.append(f"No law for the band from φ_J = {limit:.4f}: {error}.")
     return MeasuredElasticity(
@@ -194,7 +207,7 @@ def measured_elasticity(
         on_path=bool(jamming > max(path["solid_fraction"][1] for path in paths)),
         reference_pressure=reference_pressure,
         sentences=sentences,
-        ends=tuple(ends),
+        ends=ends,
     )
 
 

@@ -8,6 +8,8 @@ import pandas as pd
 from branchcrush.samples.elastic_law import MeasuredElasticity
 from branchcrush.samples.ensemble import stacked
 
+# So many states with a loaded neighbour on either side, for the slope of their energies to be told.
+_FEWEST_SLOPES = 3
 # States up to this strain are told apart from the others: next to jamming more is dissipated.
 _NEAR = 0.08
 
@@ -72,28 +74,36 @@ def rearrangement_sentence(table: pd.DataFrame) -> str:
     -------
     str
     """
-    # A slope at the last state would rest on one side alone.
-    slope = (100.0 * table["energy_slope_Pa"] / table["mean_stress_Pa"])[:-1]
+    table = table[table["mean_stress_Pa"] > 0.0]
     law = 100.0 * table["law_stress_Pa"] / table["mean_stress_Pa"]
     near = table["volumetric_strain"] <= _NEAR
-    parts = [
-        f"{_range(law[rows])} % {where}"
-        for rows, where in (
-            (~near, f"beyond a strain of {_NEAR:g}"),
-            (near, "nearer to jamming"),
-        )
-        if rows.any()
-    ]
+    part = f"{_range(law)} %"
+    if near.any() and not near.all():
+        part = f"{_range(law[~near])} % beyond a strain of {_NEAR:g} and "
+        part += f"{_range(law[near])} % nearer to jamming"
+    if _too_much(law):
+        part += ", above 100 % where it misses the states"
+    # A slope beside a state without load, or at the last state, would rest on one side alone.
+    slope = (100.0 * table["energy_slope_Pa"] / table["mean_stress_Pa"])[1:-1]
+    own = f"the energies of the states themselves give back −dE/dV, {_range(slope)} %"
+    if slope.size < _FEWEST_SLOPES:
+        own = f"for the slope −dE/dV of the states' own energies {len(table)} loaded "
+        own += "state is too few" if len(table) == 1 else "states are too few"
+    elif _too_much(slope):
+        own += ", above 100 % where states are too far apart for a slope"
+    told = f"Of the packings' mean stress the elastic law gives back dΨ₀/dε, {part}; {own}"
     last = table.iloc[-1]
     share = 100.0 * last["dissipated_J_per_m3"] / last["work_J_per_m3"]
-    told = f"Of the packings' mean stress the elastic law gives back dΨ₀/dε, {' and '.join(parts)}"
-    if slope.size:
-        told += f"; the energies of the states themselves give back −dE/dV, {_range(slope)} %"
     return (
         f"{told}. The rest rearranges grains and is lost: {share:.1f} % of the work, "
         f"{last['dissipated_J_per_m3']:.3g} of {last['work_J_per_m3']:.3g} J/m³ at the end, what "
         "was lost before jamming included."
     )
+
+
+def _too_much(percent: pd.Series) -> bool:
+    """Return whether more is said to come back than there is, beyond rounding."""
+    return bool(percent.max() >= 100.5)
 
 
 def _range(values: pd.Series) -> str:

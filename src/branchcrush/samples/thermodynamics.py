@@ -13,6 +13,7 @@ from branchcrush.gradings.distribution import Grading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.samples.crushing_model import History, crushing_model
 from branchcrush.samples.elastic_law import (
+    MeasuredElasticity,
     certified_jamming,
     measured_elasticity,
 )
@@ -94,30 +95,61 @@ def crushing_results(
     except FitError as error:
         nothing, summary = no_data(error)
         return CrushingResults(nothing, nothing, summary, nothing, nothing)
-    front, ends = settings["form"], []
+    front, of_exponent, ends = settings["form"], [], []
     if front in forms.made:
         of_exponent = at_ends_of_exponent(
             front, forms.path, initial, ultimate, fit.exponent, numbers
         )
-        ends = [(forms.made[front], law_at_end) for law_at_end in measured.ends]
+        ends = [(forms.made[front], law_at_end) for law_at_end in measured.ends.values()]
         ends += [(form, measured.law) for form in of_exponent]
     curves, table, summary, events = crushing_model(
         forms, measured, fit.exponent, fit.reference_length, law, settings, history, ends
     )
     elastic = elastic_law_table(loading, measured)
     summary["rearrangement"] = rearrangement_sentence(elastic)
-    summary["bands"] = _bands_sentence(len(measured.ends), len(ends) - len(measured.ends), front)
+    summary["bands"] = bands_sentence(measured, len(of_exponent) > 0, front)
     return CrushingResults(curves, table, summary, events, elastic)
 
 
-def _bands_sentence(of_jamming: int, of_exponent: int, front: str) -> str:
-    """Return what the bands of the form on the front hold."""
-    names = [name for name, ends in (("φ_J", of_jamming), ("n", of_exponent)) if ends > 0]
+def bands_sentence(measured: MeasuredElasticity, of_exponent: bool, front: str) -> str:
+    """Return what the bands of the form on the front hold.
+
+    Parameters
+    ----------
+    measured : MeasuredElasticity
+    of_exponent : bool
+        Whether the form was made at both ends of the interval of n.
+    front : str
+        Name of the form.
+
+    Returns
+    -------
+    str
+    """
+    without = measured.ends_without_law
+    if len(without) == 2:
+        low, high = without.values()
+        return (
+            f"The curves have no bands: φ_J is known to lie between {low:.4f} and {high:.4f}, but "
+            "from neither end is there an elastic law."
+        )
+    names = [name for name, there in (("φ_J", measured.ends), ("n", of_exponent)) if there]
     if not names:
         return "The curves have no bands: no interval of φ_J or n is known that they rest on."
-    without = "" if of_exponent else f"; n is not in the form {front}, or its interval not known"
+    of_which = f"at both ends of the interval of {' and of '.join(names)}, one at a time"
+    if without:
+        ((side, limit),) = without.items()
+        lower, upper = ("lower", "upper") if side == "low" else ("upper", "lower")
+        of_which = (
+            f"at the {upper} end of the interval of φ_J"
+            f"{' and both of that of n, one at a time' if of_exponent else ''}"
+            f"; from the {lower} end, {limit:.4f}, there is no elastic law, and the side of the "
+            "bands that it would give is empty"
+        )
+    no_exponent = (
+        "" if of_exponent else f"; n is not in the form {front}, or its interval not known"
+    )
     return (
-        "Bands are the least and the largest of the curves computed again at both ends of the "
-        f"interval of {' and of '.join(names)}, one at a time{without}; "
-        "they are empty where a load is too large for the law at an end."
+        f"Bands are the least and the largest of the curves computed again {of_which}"
+        f"{no_exponent}; they are empty where a load is too large for the law at an end."
     )

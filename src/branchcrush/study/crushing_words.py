@@ -59,6 +59,47 @@ def front_rows(forms: Table, model: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [rows.iloc[number].to_dict() for number in sorted(nearest)]
 
 
+def extrapolated_from(forms: Table, model: Mapping[str, Any]) -> float | None:
+    """Return from which C on the form on the front yields beyond the measured elastic strains.
+
+    Parameters
+    ----------
+    forms : DataFrame
+        `crushing_forms.csv`.
+    model : mapping
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    float or None
+        The least such C of the table [-]; None where there is none.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> strains = {"crushing": [0.0, 0.62, 0.64], "yield_elastic_strain": [0.01, 0.2, 0.3]}
+    >>> forms = pd.DataFrame(strains).assign(form="paper")
+    >>> extrapolated_from(forms, {"form": "paper", "largest_strain": 0.1})
+    0.62
+    """
+    rows = forms[forms["form"] == model["form"]]
+    beyond = rows.loc[rows["yield_elastic_strain"] > model["largest_strain"], "crushing"]
+    return None if beyond.empty else float(beyond.min())
+
+
+def share_text(share: float | None) -> str:
+    """Return a share to three digits, and one that is nearly 1 as above the last number below it.
+
+    Examples
+    --------
+    >>> share_text(0.891574), share_text(0.99998), share_text(-0.25), share_text(None)
+    ('0.892', 'above 0.999', '-0.25', 'none')
+    """
+    if share is None or share != share:
+        return "none"
+    return "above 0.999" if 0.9995 <= share < 1.0 else f"{share:.3g}"
+
+
 def form_rows(model: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return what the table of forms shows, a row a form, in the order in which they are shown.
 

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from jinja2 import Environment, StrictUndefined
@@ -15,9 +16,29 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.local_exponents import trend
 from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import LIMITS, Interval, interval_text
-from branchcrush.study.crushing_words import form_rows, front_rows, yes_or_no
+from branchcrush.study.crushing_words import (
+    extrapolated_from,
+    form_rows,
+    front_rows,
+    share_text,
+    yes_or_no,
+)
 from branchcrush.study.verdicts import GOOD_DISTANCE, verdicts
 
+# What is compared with twice the strain steps.
+QUANTITY_WORDS: Mapping[str, str] = MappingProxyType(
+    {
+        "exponent": "n",
+        "solid_fraction": "solid fraction φ",
+        "mean_stress_Pa": "mean stress [Pa]",
+        "elastic_energy_J": "elastic energy [J]",
+        "work_J": "work [J]",
+        "coordination_number": "coordination number κ",
+        "mechanical_coordination_number": "the same without rattlers, κ*",
+        "jamming_solid_fraction": "jamming solid fraction φ_J",
+        "force_evaluations": "force evaluations of a packing",
+    }
+)
 # What `thermodynamics.json` has a sentence for only where there is something to say.
 _NOT_SAID = dict.fromkeys(("reason", "form_reason", "paper_degenerate", "untested"))
 
@@ -60,6 +81,11 @@ class SamplePage:
     def front(self) -> list[dict[str, Any]]:
         """The form of the crushing model on the front, along C."""
         return front_rows(self.forms, self.model)
+
+    @property
+    def extrapolated_from(self) -> float | None:
+        """From which C on that form yields beyond the measured elastic strains, if it does."""
+        return extrapolated_from(self.forms, self.model)
 
 
 def render_report(template: str, samples: Sequence[SamplePage], measured: bool = False) -> str:
@@ -147,6 +173,8 @@ def page_environment() -> Environment:
         "image": _image,
         "interval": _interval,
         "number": _number,
+        "quantity": QUANTITY_WORDS.__getitem__,
+        "share": share_text,
         "trend": trend,
     }
     return environment

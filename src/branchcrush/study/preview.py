@@ -230,11 +230,13 @@ def _overlaps(overlap):
 def _no_crushing(sample, ultimate):
     """Return what keeps the crushing model from having curves, as far as it is known before."""
     warnings, states = [], len(sample.loading.stresses) or sample.loading.states
+    # The law is fitted to the states of all packings together.
+    states *= len(sample.seeds)
     if states < FEWEST_STATES:
         saved = "one saved state" if states == 1 else f"{states} saved states"
         warnings.append(
-            f"{saved}: an elastic law needs {FEWEST_STATES} that carry load -> no theta and no "
-            "curves of the crushing model"
+            f"{saved} of all packings: an elastic law needs {FEWEST_STATES} that carry load -> no "
+            "theta and no curves of the crushing model"
         )
     if ultimate is None:
         return [*warnings, "one size: no ultimate grading -> no crushing model, and n says little"]

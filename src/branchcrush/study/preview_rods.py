@@ -12,6 +12,9 @@ _WALLS = (
     "fraction are used, with the measured one"
 )
 _LOOSE = "the loading ends before that, perhaps without load"
+_STRESSED = "how many at the end depends on how far the stresses compress them"
+# This line does not read the configuration of the crushing model.
+_BY = "(rods that push, whatever thermodynamics.network is)"
 
 
 class Carrying(NamedTuple):
@@ -51,6 +54,8 @@ def carrying(sample: Sample) -> Carrying | None:
         jammed = load_bearing(radius, share)
         if not sample.periodic:
             return Carrying(jammed, None, _WALLS)
+        if sample.loading.stresses:  # no solid fraction is known at their end
+            return Carrying(jammed, None, _STRESSED)
         strain = 1.0 - jammed.solid_fraction / sample.end
         if strain < 0.0:
             return Carrying(jammed, None, _LOOSE)
@@ -82,7 +87,7 @@ def carrying_words(found: Carrying | None, unit: str, metres: float) -> str:
     ... # doctest: +NORMALIZE_WHITESPACE
     'of your grains 24 % will carry load (by mass 93 %), the finest that do are 0.32 mm in diameter;
     they jam at a solid fraction of 0.721 with 1.4 contacts a grain, rattlers counted; 2.9 at the
-    end of the loading (rods that push)'
+    end of the loading (rods that push, whatever thermodynamics.network is)'
     """
     if found is None:
         return "not known: rods that push find no grain of this grading that does"
@@ -95,7 +100,7 @@ def carrying_words(found: Carrying | None, unit: str, metres: float) -> str:
         "rattlers counted; "
     )
     at_end = found.why or f"{found.at_end:.2g} at the end of the loading"
-    return f"{text}{at_end} (rods that push)"
+    return f"{text}{at_end} {_BY}"
 
 
 def _percent(share: float) -> str:

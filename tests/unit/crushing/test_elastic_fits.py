@@ -67,8 +67,10 @@ def test_the_fit_needs_four_loaded_states():
     phi = np.array([0.50, 0.55, 0.60, 0.66, 0.70, 0.75, 0.75])
     with pytest.raises(ValueError, match="3 states carry load, the fit needs 4"):
         fit_elasticity(phi, energies_along(phi, 0.64, PowerLawElasticity(1.0, 1.0)))
-    with pytest.raises(ValueError, match="0 states carry load"):
+    with pytest.raises(ValueError, match="of all packings 0 states carry load"):
         fit_elasticity(phi, np.zeros(7))
+    with pytest.raises(ValueError, match="1 state carries load"):
+        fit_elasticity([0.60, 0.70], [0.0, 1.0])
 
 
 @pytest.mark.parametrize(
@@ -170,3 +172,5 @@ def test_no_law_goes_through_such_states(energy, reason):
 def test_no_law_without_states_above_jamming():
     with pytest.raises(ValueError, match=r"2 states lie above phi_J = 0\.6900, it needs 3"):
         interpolated_elasticity([0.66, 0.68, 0.70, 0.75], [1.0, 2.0, 3.0, 4.0], 0.69)
+    with pytest.raises(ValueError, match=r"1 state lies above phi_J = 0\.7100"):
+        interpolated_elasticity([0.66, 0.68, 0.70, 0.75], [1.0, 2.0, 3.0, 4.0], 0.71)

@@ -72,9 +72,12 @@ def test_strain_and_stress_control_meet():
     np.testing.assert_allclose(pressed.crushing, strained.crushing, rtol=1e-9)
 
 
+LIMIT = ElasticStrainLimit(0.0125)
+
+
 def test_a_limit_of_elastic_strain_is_held():
     law = PowerLawElasticity(1e9, 1.5)
-    path = evolve(np.linspace(0.02, 0.14, 9), MOVING, law, ElasticStrainLimit(0.0125))
+    path = evolve(np.linspace(0.02, 0.14, 9), MOVING, law, LIMIT)
     np.testing.assert_allclose(path.elastic_strain, 0.0125, rtol=1e-10)
     assert (np.diff(path.crushing) > 0).all()
 
@@ -89,6 +92,16 @@ def test_crushing_locks_where_it_would_cost_energy():
     at_limit = MOVING.total_strain(0.0125, locked + np.array([-1e-3, 1e-3]))
     force = MOVING.driving_force(at_limit, locked + np.array([-1e-3, 1e-3]), law)
     assert force[0] > 0.0 >= force[1]
+
+
+@pytest.mark.parametrize("control", ["strain", "stress"])
+def test_crushing_that_comes_to_its_last_c_is_complete_and_no_lock(control):
+    # By the paper's form more crushing sets energy free at every C.
+    law = PowerLawElasticity(1e9, 1.0)
+    path = evolve([0.02 if control == "strain" else 2e7] * 2, PAPER, law, LIMIT, control)
+    assert [event.kind for event in path.events][-1] == "complete"
+    assert "lock" not in [event.kind for event in path.events]
+    assert path.crushing[-1] == pytest.approx(1.0, abs=1e-9)
 
 
 def test_a_constant_critical_energy_jumps_and_the_jump_is_booked():

@@ -181,7 +181,8 @@ def test_the_uncertainty_of_a_line_holds_as_often_as_one_standard_deviation(expo
 def test_fewer_than_four_loaded_states_are_refused(states):
     phi = np.linspace(0.60, 0.70, 8)
     loaded = np.arange(8) >= 8 - states
-    with pytest.raises(FitError, match=rf"^{states} states carry load; 4 are needed"):
+    carry = "state carries" if states == 1 else "states carry"
+    with pytest.raises(FitError, match=rf"^{states} {carry} load; 4 are needed"):
         jamming_point(phi, np.maximum(phi - 0.6, 0.0), 1.0, loaded)
 
 

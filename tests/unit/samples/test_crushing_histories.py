@@ -69,6 +69,18 @@ def test_bands_are_the_curves_at_the_ends():
     assert_allclose(after[["stress_low_Pa", "stress_high_Pa"]].astype(float), ends, rtol=1e-10)
 
 
+def test_the_side_of_an_end_without_a_law_is_empty():
+    rows, _ = form_curves(FORM, LAW, RESISTANCE, 0.2, fixed=(0.5,))
+    banded = with_bands(rows, [(FORM, PowerLawElasticity(0.9, 1.0))], RESISTANCE, None, 1)
+    loaded = banded[(banded["path"] == "fixed") & (banded["stress_Pa"] > 0)]
+    assert_allclose(loaded["stress_low_Pa"], 0.9 * loaded["stress_Pa"], rtol=1e-12)
+    assert banded.filter(like="_high_").isna().all(axis=None)
+    # Bands of n alone would leave out what phi_J does.
+    of_exponent = [(FORM, LAW), (ModelForm(LinearCurve(0.5)), LAW)]
+    neither = with_bands(rows, of_exponent, RESISTANCE, None, 2)
+    assert neither[list(BANDS)].isna().all(axis=None)
+
+
 def test_bands_without_ends_are_empty():
     rows, _ = form_curves(FORM, LAW, RESISTANCE, 0.2, fixed=())
     assert with_bands(rows, [], RESISTANCE)[list(BANDS)].isna().all(axis=None)

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 from branchcrush.errors import FitError
 from branchcrush.samples.elastic_law import certified_jamming, measured_elasticity
 from branchcrush.samples.rearrangement import elastic_law_table, rearrangement_sentence
+from branchcrush.samples.thermodynamics import bands_sentence
 from branchcrush.statistics.intervals import Interval
 
 JAMMING, MODULUS, EXPONENT = 0.64, 300e6, 1.5
@@ -65,7 +66,7 @@ def test_another_jamming_point_changes_the_exponent_and_the_fit_says_so():
 def test_the_free_fit_is_the_fallback(certified, reason):
     found = measured_elasticity([path_of()], certified)
     assert_allclose([found.jamming, found.law.exponent], [JAMMING, EXPONENT], rtol=1e-5)
-    assert found.ends == ()
+    assert found.ends == {}
     assert found.sentences[0].startswith(
         f"φ_J of the elastic law is fitted to the energies, 0.6400: {reason}"
     )
@@ -99,13 +100,35 @@ def test_the_measured_law_goes_through_the_mean_of_the_states():
 
 def test_the_limits_of_jamming_have_laws_of_their_own():
     found = measured_elasticity([path_of()], KNOWN)
-    low, high = found.ends
+    low, high = found.ends["low"], found.ends["high"]
+    assert found.ends_without_law == {}
     # From a looser jamming point the same energy belongs to a larger strain.
     assert low.pressure(0.1) < found.law.pressure(0.1) < high.pressure(0.1)
 
 
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        # States of four strains: from 0.739 on too few of them are left.
+        ((0.64, 0.739), "at the lower end of the interval of φ_J; from the upper end, 0.7390, th"),
+        ((0.738, 0.739), "between 0.7380 and 0.7390, but from neither end is there an elastic law"),
+        ((0.63, 0.65), "at both ends of the interval of φ_J, one at a time; n is not in the form"),
+        ((np.nan, np.nan), "no interval of φ_J or n is known"),
+    ],
+)
+def test_ends_of_jamming_without_a_law_are_told_and_no_band_is_said_to_rest_on_them(limits, words):
+    found = measured_elasticity([path_of()], Interval(JAMMING, *limits))
+    assert words in bands_sentence(found, False, "einav")
+    assert set(found.ends_without_law.values()) == {
+        limit for limit in limits if limit in (0.738, 0.739)
+    }
+    if set(limits) == {0.64, 0.739}:
+        both = bands_sentence(found, True, "paper")
+        assert "interval of φ_J and both of that of n, one at a time; from the upper end" in both
+
+
 def test_too_few_states():
-    with pytest.raises(FitError, match="no elastic law in the loading path: 3 states"):
+    with pytest.raises(FitError, match="in the loading path: of all packings 3 states"):
         measured_elasticity([path_of(solid_fraction=DENSE[:3])], KNOWN)
 
 
@@ -147,3 +170,33 @@ def test_stress_is_what_the_law_gives_back_and_what_rearrangement_takes():
     sentence = rearrangement_sentence(table)
     assert "gives back dΨ₀/dε, 80 % beyond a strain of 0.08 and 80 % nearer to jamming" in sentence
     assert "is lost: 20.0 % of the work" in sentence
+    assert "above 100 %" not in sentence
+
+
+@pytest.mark.parametrize(
+    ("states", "words"),
+    [
+        (1, "own energies 1 loaded state is too few."),
+        (4, "own energies 4 loaded states are too few."),
+        (5, "the states themselves give back −dE/dV, 75 to 130 %, above 100 % where states are"),
+    ],
+)
+def test_slopes_of_too_few_states_are_left_out(states, words):
+    table = pd.DataFrame(
+        {
+            "volumetric_strain": [0.01, 0.02, 0.03, 0.05, 0.07][:states],
+            "mean_stress_Pa": 1e6,
+            "law_stress_Pa": 0.9e6,
+            # The first and the last rest on one side alone.
+            "energy_slope_Pa": np.array([3.6e6, 1.3e6, 0.75e6, 0.8e6, 2e6])[:states],
+            "work_J_per_m3": 2.0,
+            "dissipated_J_per_m3": 0.5,
+        }
+    )
+    sentence = rearrangement_sentence(table)
+    assert words in sentence
+    # No half of the strains is told of where there is no other.
+    assert "dΨ₀/dε, 90 %; " in sentence
+    assert "360" not in sentence and "25.0 % of the work" in sentence
+    above = rearrangement_sentence(table.assign(law_stress_Pa=1.2e6))
+    assert "dΨ₀/dε, 120 %, above 100 % where it misses the states; " in above

@@ -8,6 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from branchcrush.config.crushing import Thermodynamics
+from branchcrush.crushing.curves import LinearCurve
+from branchcrush.crushing.forms import ModelForm
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.gradings.forms import fractal, uniform
 from branchcrush.gradings.mixtures import single
@@ -207,11 +209,42 @@ def test_a_limit_of_elastic_strain_is_held_and_gives_the_compression_line(strain
     crushing = path[path["crushing"] > 0].iloc[:-10]
     assert_allclose(crushing["elastic_strain"], 0.0125, rtol=1e-6)
     rows = of(table, "moving_jamming")
+    # Beyond the densest mixture C does not grow.
+    costs = rows["driving_force_over_pressure"] < -1e-9
+    assert costs.any() and rows.loc[costs, ["void_ratio", "yield_stress_Pa"]].isna().all(axis=None)
+    rows = rows[~costs]
     density = rows["jamming_solid_fraction"]
     assert_allclose(rows["void_ratio"], (1 - 0.0125) / density - 1, rtol=1e-8)
     stress = rows["stiffness_ratio"] * MODULUS * 0.0125**1.5
     assert_allclose(rows["yield_stress_Pa"], stress, rtol=1e-2)
     assert summary["least_hardening_exponent"] is None
+
+
+def strained_alone(forms, name, form):
+    """Return summary and events of one form at a limit of the elastic strain."""
+    keys = settings(resistance="elastic_strain", form=name)
+    only = replace(alone(forms, name), made={name: form})
+    measured = measured_elasticity([path_to(LAST)])
+    return crushing_model(only, measured, FIT.exponent, 9e-4, LAW, keys)[1:]
+
+
+def test_what_costs_energy_at_all_c_never_yields(forms):
+    table, summary, events = strained_alone(forms, "density", ModelForm(LinearCurve(-0.2)))
+    told = summary["forms"]["density"]
+    assert told["inadmissible_from"] == 0.0
+    assert told["yield_strain"] is told["yield_stress_Pa"] is told["hardens_at_onset"] is None
+    assert not told["yields_on_path"] and told["crushing_at_end"] == 0.0
+    assert table[["yield_stress_Pa", "void_ratio"]].isna().all(axis=None)
+    assert events["event"].tolist() == ["lock"]
+
+
+def test_what_crushes_to_the_ultimate_grading_ends_at_one_and_is_complete(forms):
+    _, summary, events = strained_alone(forms, "paper", forms.made["paper"])
+    assert summary["crushing_at_end"] == 1.0
+    assert events["event"].iloc[-1] == "complete"
+    assert events["crushing"].iloc[-1] == events["crushing_after"].iloc[-1] == 1.0
+    # g falls at a strain that is held.
+    assert summary["hardens_at_onset"] is False and summary["forms"]["paper"]["snaps"]
 
 
 def test_energies_beside_each_other(made):
@@ -279,7 +312,7 @@ def test_every_form_follows_the_history_of_the_user(made):
         most = rows["work_J_per_m3"].max()
         assert_allclose(rows["work_J_per_m3"], kept, atol=1e-10 * most)
     assert set(made.events["path"]) == {"crushing", "history"}
-    assert set(made.events["event"]) <= {"yield", "jump", "lock"}
+    assert set(made.events["event"]) <= {"yield", "jump", "complete", "lock"}
 
 
 def test_one_packing_has_no_bands_and_says_so(made):

@@ -167,12 +167,23 @@ def test_grains_in_the_coarsest_tenth_and_the_share_of_the_largest():
     assert plan.largest_grains == (10, pytest.approx(0.5))
 
 
-@pytest.mark.parametrize(("states", "warned"), [(1, "one saved"), (3, "3 saved"), (4, None)])
-def test_too_few_states_for_an_elastic_law_lead_to_no_theta(states, warned):
-    texts = [text for text in plan_of(states=states).warnings if "no theta" in text]
+@pytest.mark.parametrize(
+    ("states", "seeds", "warned"),
+    [
+        (1, 1, "one saved state"),
+        (3, 1, "3 saved states"),
+        (4, 1, None),
+        (1, 3, "3 saved states"),
+        (1, 4, None),
+        (3, 2, None),
+    ],
+)
+def test_too_few_states_of_all_packings_for_an_elastic_law_lead_to_no_theta(states, seeds, warned):
+    plan = plan_of(states=states, seeds=seeds)
+    texts = [text for text in plan.warnings if "no theta" in text]
     assert len(texts) == (warned is not None)
     if warned:
-        assert texts[0].startswith(f"{warned} state")
+        assert texts[0].startswith(f"{warned} of all packings: an elastic law needs 4")
 
 
 def test_a_degenerate_form_and_untested_sizes_are_said_before_a_run():

@@ -10,6 +10,7 @@ import pytest
 from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.state_fit import FittedPredictor
+from branchcrush.plotting.form_lines import extrapolated
 from branchcrush.samples.certificate import LIMITS
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.pages import SamplePage, render_report
@@ -334,8 +335,8 @@ def test_page_compares_both_runs_where_the_exponent_is_missing(page):
     stress = {**exponent, "quantity": "mean_stress_Pa", "value": 1e6, "difference": 1234.5}
     stress |= {"compared_by": "pairs", "could_see": 5e4, "verdict": "converged"}
     html = page({"certificate": {"convergence": [exponent, stress]}})
-    assert "<td>exponent</td><td>1 against 2</td> <td>none</td>" in html
-    assert "<td>mean_stress_Pa</td><td>1 pair</td> <td>1e+06</td>" in html
+    assert "<td>n</td><td>1 against 2</td> <td>none</td>" in html
+    assert "<td>mean stress [Pa]</td><td>1 pair</td> <td>1e+06</td>" in html
     assert "<td>5e+04</td><td>0.1</td><td>converged</td>" in html
 
 
@@ -383,9 +384,9 @@ def test_the_form_on_the_front_is_named_with_why_and_its_numbers(page):
 def test_the_front_is_tabled_along_c_as_far_as_it_is_admissible(page):
     html = page({})
     assert (
-        "<tr><td>0.10</td><td>0.6500</td><td>1.15</td> <td>0.400</td><td>4</td><td>0.520</td></tr>"
+        "<tr><td>0.10</td><td>0.6500</td><td>1.15</td> <td>0.4</td><td>4</td><td>0.520</td></tr>"
     ) in html
-    assert "<td>0.50</td><td>0.7600</td><td>3.83</td> <td>0.040</td><td>none</td>" in html
+    assert "<td>0.50</td><td>0.7600</td><td>3.83</td> <td>0.04</td><td>none</td>" in html
     assert "0.7700" not in html
 
 
@@ -395,6 +396,45 @@ def test_yield_beyond_the_measured_strains_is_said(page):
     assert "it yields at" not in page({})
 
 
+def test_page_and_figures_tell_one_c_from_which_on_the_law_is_extrapolated(page):
+    # Between two rows of the page, which are tenths of C.
+    crushing = [k / 50.0 for k in range(51)]
+    strain = [0.01 if at < 0.615 else 0.2 for at in crushing]
+    forms = pd.DataFrame({"crushing": crushing, "yield_elastic_strain": strain, "form": "paper"})
+    forms = forms.assign(**dict.fromkeys(FORMS.columns.drop(list(forms)), 1.0))
+    model = {**MODEL, "form": "paper"}
+    (text,) = extrapolated(forms, model)
+    assert text.startswith("From C = 0.62 on")
+    assert "From C = 0.62 on it yields at" in page({"model": model, "forms": forms})
+
+
+@pytest.mark.parametrize(
+    ("hardens", "snaps", "said"),
+    [
+        (True, [], "the stress rises then."),
+        (True, [0.12, 0.3], "rises then, and falls from C = 0.12 on: under a stress that is held"),
+        (False, [0.0], "the stress falls then: under a stress that is held C snaps on there."),
+    ],
+)
+def test_the_sentence_of_the_onset_is_what_the_table_says(page, hardens, snaps, said):
+    form = {**FORM, "hardens_at_onset": hardens, "snaps": snaps}
+    forms = {**MODEL["forms"], "paper": form}
+    model = {**MODEL, "form": "paper", "forms": forms, "hardens_at_onset": hardens}
+    assert said in page({"model": model})
+
+
+def test_a_small_driving_force_keeps_its_digits(page):
+    forms = FORMS.assign(driving_force_over_pressure=[0.0012345] * len(FORMS))
+    assert "<td>0.00123</td>" in page({"forms": forms})
+
+
+def test_a_sample_that_is_not_certified_says_so_again_beside_the_crushing_model(page):
+    html = page({"certificate": {"verdict": "not certified", "reasons": ["few"]}})
+    section = html[html.index("<h3>Crushing</h3>") :]
+    assert "The sample is not certified" in section
+    assert "is not certified" not in page({})
+
+
 def test_every_form_says_whether_it_is_admissible_where_not_and_why(page):
     html = page({})
     moving = html[html.index("<tr><td>moving jamming point</td>") :]
@@ -402,7 +442,7 @@ def test_every_form_says_whether_it_is_admissible_where_not_and_why(page):
     assert "<td>at C = 0.12, 0.25</td></tr>" in moving
     # One that hardens when crushing begins may snap farther on.
     assert "<th>hardens at onset</th><th>snaps under stress</th>" in html
-    assert "<td>0.891574</td><td>yes</td> <td>never</td> <td>yes</td><td>never</td></tr>" in html
+    assert "<td>0.892</td><td>yes</td> <td>never</td> <td>yes</td><td>never</td></tr>" in html
     assert "<td>-0.25</td><td>yes</td> <td>at all C</td> <td>never yields</td>" in html
     assert '<td class="words" colspan="5">no contacts &lt;measured&gt;</td></tr>' in html
     assert "<p><b>moving jamming point</b>: It ends at C = 0.55. It snaps.</p>" in html
@@ -450,6 +490,8 @@ def test_a_grading_that_is_the_ultimate_one_never_crushes(page):
     html = page({"model": model})
     assert "By this form crushing never begins." in html
     assert "Crushing begins at" not in html
+    html = page({"model": {**model, "form": "density"}})
+    assert "crushing never begins: it would cost elastic energy from the first." in html
 
 
 def test_a_limit_of_elastic_strain_is_told_with_its_numbers(page):
