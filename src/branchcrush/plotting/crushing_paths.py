@@ -76,7 +76,7 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
 
 
 def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
-    """Draw the driving force against its resistance: crushing goes on where they are equal.
+    """Draw the driving force against the one at which C grows.
 
     Parameters
     ----------
@@ -108,7 +108,9 @@ def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Ax
 
 
 def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
-    """Draw work = stored + dissipated, and the part of it that moves the jamming point.
+    """Draw work = stored + dissipated, and the part of the work that moves the jamming point.
+
+    That part may lie above what is dissipated: a grading that crushing made stiffer stores some.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         ("work_J_per_m3", "work", {"color": FAINT, "lw": 2.4}),
         ("free_energy_J_per_m3", "stored", {"color": MEASURED}),
         ("dissipated_J_per_m3", "dissipated", {"color": MODEL}),
-        ("plastic_work_J_per_m3", "plastic compaction", {"color": OTHER, "ls": "--"}),
+        ("plastic_work_J_per_m3", "plastic work", {"color": OTHER, "ls": "--"}),
     ):
         ax.plot(strain, path[column] / 1e6, label=label, **style)
     ax.set(xlabel=STRAIN, ylabel="energy per volume [MJ/m³]")

@@ -54,5 +54,5 @@ def test_driving_force_and_resistance_are_told_apart(shown):
 
 def test_work_stored_dissipated_and_plastic_energy_are_told_apart(shown):
     ax = crushing_paths.plot_work(curves_table(), model())
-    for label, value in (("work", 6), ("stored", 1), ("dissipated", 4), ("plastic compaction", 5)):
+    for label, value in (("work", 6), ("stored", 1), ("dissipated", 4), ("plastic work", 5)):
         assert_allclose(shown.line(ax, label), [PERCENT, [0.0, value, value]])
