@@ -51,7 +51,7 @@ class Evolution:
     driving_force: NDArray  # E_C [J/m3]
     stored: NDArray  # Psi [J/m3]
     dissipated: NDArray  # integral of E_C over C [J/m3]
-    compaction: NDArray  # the part of it that moves the jamming point under stress [J/m3]
+    compaction: NDArray  # plastic work, the part of `work` that moves the jamming point [J/m3]
     work: NDArray  # integral of sigma over eps [J/m3]
     events: list[Event] = field(default_factory=list)
 

@@ -8,8 +8,9 @@
 `gradings`, `packings`, `loading`, `certificate`, `energy`, `predictors`, `branches`
     The panels of a sample: `plot_...` draws one on an Axes and returns it; none saves a file. Who
     carries what is in `shielding` and `forces`.
-`crushing`, `crushing_paths`, `form_lines`
-    The panels of the crushing model, against C and along the strain; how its forms are drawn.
+`crushing`, `crushing_paths`, `form_lines`, `form_words`
+    The panels of the crushing model, against C and along the strain; how its forms are drawn, and
+    what is said of them below a figure.
 `study`, `study_networks`
     The panels of all samples.
 `style`, `intervals`

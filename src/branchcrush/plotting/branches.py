@@ -16,6 +16,7 @@ from branchcrush.plotting.style import (
     STATES,
     above_jamming,
     axes,
+    legend_above,
     reason,
     widen,
 )
@@ -258,12 +259,8 @@ def plot_branch_lengths(
     for key, color in (("mean_length_1_m1", MEASURED), ("eq4_length_1_m1", MODEL)):
         ax.axvline(statistics[key] / radius_max, color=color, lw=0.8, ls=":")
     ax.set(xlabel=r"branch length $l/R_M$ [-]", ylabel=r"density $B(l)\,R_M$ [-]")
-    ax.set_xlim(0, table["length_high_m"].max() / radius_max)
-    ax.set_ylim(
-        0, 1.4 * max(density.max(), table["density_random_contact_per_m"].max() * radius_max)
-    )
-    ax.legend(loc="upper left", title="dotted: the means", title_fontsize=6.5)
-    return ax
+    ax.set(xlim=(0, table["length_high_m"].max() / radius_max), ylim=(0, None))
+    return legend_above(ax, title="dotted: the means")
 
 
 def _count(table):

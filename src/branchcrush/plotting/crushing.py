@@ -31,6 +31,7 @@ _FORCES = (-0.35, 0.7)
 _MARKS = np.arange(11) / 10.0  # C along the compression line
 _MOVES = 1e-6  # of a jamming point that does not stay
 _APART = 0.09  # of two marks with their C, in widths of the panel
+_HEAP = 0.2  # of a line that is too short for several marks
 _OFFSET = {"textcoords": "offset points", "fontsize": 6.5}
 
 
@@ -61,7 +62,7 @@ def plot_compression_line(
             continue
         crushing, void = rows["crushing"].to_numpy(), rows["void_ratio"].to_numpy()
         stress = rows["yield_stress_Pa"].to_numpy() / 1e6
-        admissible = draw_form(ax, rows, model, stress, void)
+        admissible = draw_form(ax, rows, model, stress, void, at_yield=True)
         usable = admissible & np.isfinite(stress) & np.isfinite(void) & (stress > 0)
         if usable.any():
             begins.append(stress[usable][0])
@@ -86,6 +87,8 @@ def plot_compression_line(
 def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
     """Draw the solid fraction at jamming of the forms that move it, and that of the others.
 
+    The axis shows the form on the front and the moving jamming point: limiting densities end at 1.
+
     Parameters
     ----------
     forms : DataFrame
@@ -98,7 +101,7 @@ def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
     -------
     Axes
     """
-    ax, stays, front = axes(ax), [], None
+    ax, stays, whole = axes(ax), [], []
     for name, rows in each_form(forms, model):
         solid = rows["jamming_solid_fraction"].to_numpy()
         if name not in beside_the_paper(model):
@@ -107,21 +110,23 @@ def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
             draw_form(ax, rows, model, rows["crushing"].to_numpy(), solid)
         else:
             stays.append(solid[0])
-        if name == model["form"]:
-            front = solid
+        if name in (model["form"], "moving_jamming"):
+            whole += solid.tolist()
     if stays:
         ax.axhline(stays[0], color=FAINT, lw=0.8)
         below = {"xytext": (0, -3), "ha": "right", "va": "top"}
         ax.annotate("all other forms", (0.98, stays[0]), **below, **_OFFSET)
     ax.set(xlabel=CRUSHING, ylabel=r"solid fraction at jamming $\phi_J$ [-]", xlim=(0, 1))
-    if front is not None:
-        margin = max(0.4 * float(np.ptp(front)), 0.01)
-        ax.set_ylim(front.min() - margin, front.max() + margin)
+    if whole:
+        margin = max(0.2 * (max(whole) - min(whole)), 0.01)
+        ax.set_ylim(min(whole) - margin, max(whole) + margin)
     return ax
 
 
 def plot_energy(forms: Table, model: Mapping, column: str, ax: Axes | None = None) -> Axes:
     """Draw the elastic energy over that before crushing, at something that is held equal.
+
+    The axis shows the form on the front and the paper's.
 
     Parameters
     ----------
@@ -138,10 +143,11 @@ def plot_energy(forms: Table, model: Mapping, column: str, ax: Axes | None = Non
     Axes
     """
     ax, shown = axes(ax), [1.0]
-    for _, rows in each_form(forms, model):
+    for name, rows in each_form(forms, model):
         ratio = rows[column].to_numpy()
         admissible = draw_form(ax, rows, model, rows["crushing"].to_numpy(), ratio)
-        shown += ratio[admissible & np.isfinite(ratio)].tolist()
+        if name in (model["form"], "paper"):
+            shown += ratio[admissible & np.isfinite(ratio)].tolist()
     ax.axhline(1.0, color=FAINT, lw=0.6, zorder=0)
     ax.set(yscale="log", xlim=(0, 1), xticks=(0.0, 0.5, 1.0))
     ax.set_ylim(max(min(shown) / 1.5, _RATIOS[0]), min(2.0 * max(shown), _RATIOS[1]))
@@ -168,7 +174,7 @@ def plot_driving_force(forms: Table, model: Mapping, ax: Axes | None = None) -> 
     ax, known, front = axes(ax), [0.0], 0.0
     for name, rows in each_form(forms, model):
         force = rows["driving_force_over_pressure"].to_numpy()
-        draw_form(ax, rows, model, rows["crushing"].to_numpy(), force)
+        draw_form(ax, rows, model, rows["crushing"].to_numpy(), force, at_yield=True)
         known += (finite := force[np.isfinite(force)].tolist())
         front = max(finite, default=0.0) if name == model["form"] else front
     low, high = max(min(known), _FORCES[0]), min(max(known), _FORCES[1])
@@ -203,7 +209,7 @@ def plot_yield_stress(forms: Table, model: Mapping, ax: Axes | None = None) -> A
     shown: list[float] = []
     for name, rows in each_form(forms, model):
         crushing, stress = rows["crushing"].to_numpy(), rows["yield_stress_Pa"].to_numpy() / 1e6
-        admissible = draw_form(ax, rows, model, crushing, stress)
+        admissible = draw_form(ax, rows, model, crushing, stress, at_yield=True)
         known = np.isfinite(stress) & (stress > 0)
         shown += stress[known & admissible].tolist()
         snaps = model["forms"][name]["snaps"]
@@ -232,14 +238,15 @@ def _mark(ax: Axes, crushing: NDArray, stress: NDArray, void: NDArray, model: Ma
         return np.column_stack([x, np.interp(at, crushing, void)])
 
     last = None
-    reached = np.searchsorted(_MARKS, crushing[-1], side="right")
-    for value in _MARKS[:reached].tolist():
-        (point,) = places([value])
-        spot = ax.transAxes.inverted().transform(ax.transData.transform(point))
-        if last is None or np.hypot(*(spot - last)) >= _APART:
+    marks = _MARKS[: np.searchsorted(_MARKS, crushing[-1], side="right")].tolist()
+    points = places(marks)
+    spots = ax.transAxes.inverted().transform(ax.transData.transform(points))
+    heap = np.ptp(spots, axis=0).max() < _HEAP and len(marks) > 1
+    for value, point, spot in zip(marks, points, spots, strict=True):
+        if last is None or (np.hypot(*(spot - last)) >= _APART and not heap):
+            label = f"{value:g}" if value else f"C = 0 to {marks[-1]:g}" if heap else "C = 0"
             last = spot
             ax.plot(*point, "o", color=color, ms=3.5, mec="w", mew=0.5, zorder=5)
-            label = f"{value:g}" if value else "C = 0"
             ax.annotate(label, point, (4, 3), color=color, **_OFFSET)
     snaps = places(model["forms"][model["form"]]["snaps"])
     ax.plot(*snaps.T, color=color, zorder=6, **SNAP)

@@ -16,10 +16,16 @@ from branchcrush.files.tables import Table
 from branchcrush.plotting import crushing, crushing_paths
 from branchcrush.plotting.form_lines import (
     beside_the_paper,
-    extrapolated,
+    extrapolates,
     form_handles,
-    form_notes,
     plain_decades,
+)
+from branchcrush.plotting.form_words import (
+    extrapolated,
+    form_notes,
+    never_yield,
+    outside,
+    same_yield,
     warnings,
 )
 from branchcrush.plotting.style import SIZE, drawn, figure
@@ -53,9 +59,11 @@ def draw_crushing_model(
         drawn(crushing.plot_jamming, why, forms, model, ax=panels[1])
         if why is None:
             shown = beside_the_paper(model)
-            handles = [*form_handles(model, shown), panels[0].lines[-1]]
+            beyond = extrapolates(panels)
+            handles = [*form_handles(model, shown, beyond=beyond), panels[0].lines[-1]]
             notes = [*form_notes(model, shown), *extrapolated(forms, model), *warnings(model)]
-            _explain(panels[0].figure, handles, notes)
+            of = dict(zip(("of void ratio", "of solid fraction"), panels, strict=True))
+            _explain(panels[0].figure, handles, [*notes, *outside(of)])
     return panels[0].figure
 
 
@@ -87,7 +95,9 @@ def draw_crushing_energy(path: Path, dpi: int, forms: Table, model: Mapping) -> 
                 ax.set_xlabel(crushing.CRUSHING)
             shown = set(forms["form"])
             handles = form_handles(model, shown, snaps=False)
-            _explain(panels[0, 0].figure, handles, [*form_notes(model, shown), *warnings(model)])
+            notes = [*form_notes(model, shown), *warnings(model)]
+            of = dict(zip(crushing.COMPARED.values(), panels.flat, strict=True))
+            _explain(panels[0, 0].figure, handles, [*notes, *outside(of)])
     return panels[0, 0].figure
 
 
@@ -117,8 +127,10 @@ def draw_crushing_yield(
         drawn(crushing_paths.plot_crushing, why, curves, model, ax=panels[2])
         if why is None:
             shown = set(forms["form"])
-            notes = [*form_notes(model, shown), *extrapolated(forms, model)]
-            _explain(panels[0].figure, form_handles(model, shown), notes)
+            handles = form_handles(model, shown, beyond=extrapolates(panels))
+            notes = [*form_notes(model, shown), *extrapolated(forms, model), *never_yield(forms)]
+            of = {"of driving force": panels[0], "of yield stress": panels[1]}
+            _explain(panels[0].figure, handles, [*notes, *same_yield(forms), *outside(of)])
     return panels[0].figure
 
 
@@ -160,7 +172,7 @@ def _one_axis(panels) -> None:
 
 def _explain(drawing: Figure, handles: Sequence[Line2D], notes: Sequence[str]) -> None:
     """Put one legend above all panels, and words below them."""
-    close = {"columnspacing": 1.0, "handlelength": 1.6}
+    close = {"columnspacing": 1.0, "handlelength": 1.6, "fontsize": 6}
     drawing.legend(handles=handles, loc="outside upper left", ncols=2, **close)
     if notes:
         text = "\n".join(textwrap.fill(note, _CHARACTERS) for note in notes)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.form_lines import each_form, plain_decades, width
-from branchcrush.plotting.style import FAINT, FORMS, MEASURED, MODEL, OTHER, axes
+from branchcrush.plotting.style import FAINT, FORMS, MEASURED, MODEL, OTHER, axes, legend_above
 
 STRAIN = "volumetric strain from jamming [%]"
 _SHADES = ("#08306b", "#2171b5", "#6baed6", "#fd8d3c", "#d94801")
@@ -32,7 +32,7 @@ def plot_crushing(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes
     for name, path in each_form(curves[curves["path"] == "crushing"], model):
         style = {"color": FORMS[name], "lw": width(name, model), "label": FORM_LABELS[name]}
         ax.plot(100 * path["volumetric_strain"], path["crushing"], **style)
-    ax.set(xlabel=STRAIN, ylabel="crushing parameter C [-]", ylim=(0, 1))
+    ax.set(xlabel=STRAIN, ylabel="crushing parameter C [-]", ylim=(-0.03, 1.03))
     return ax
 
 
@@ -69,15 +69,17 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         ax.fill_between(strain[way_in], low, high, color=FAINT, alpha=0.4, lw=0, label="its band")
     own = curves[(curves["form"] == form) & (curves["path"] == "history")]
     if len(own):
+        # Its states alone: between them the table does not say how the stress went.
         strain, stress = 100 * own["volumetric_strain"], own["stress_Pa"] / 1e6
-        ax.plot(strain, stress, "--", color=MODEL, lw=1.2, label="history of the configuration")
+        ring = {"color": MODEL, "mfc": "w", "ms": 4, "zorder": 5}
+        ax.plot(strain, stress, "o", label="configured history", **ring)
     ax.set(xlabel=STRAIN, ylabel="mean stress [MPa]")
     _decades_below(ax, max(path["stress_Pa"].max(), own["stress_Pa"].max() if len(own) else 0.0))
-    return _legend_above(ax, 4)
+    return legend_above(ax, 3)
 
 
 def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
-    """Draw the driving force against its resistance: crushing goes on where they are equal.
+    """Draw the driving force against the one at which C grows.
 
     Parameters
     ----------
@@ -99,17 +101,19 @@ def plot_resistance(curves: Table, model: Mapping, ax: Axes | None = None) -> Ax
     ):
         ax.plot(strain, path[column] / 1e6, label=label, **style)
     ax.axhline(0.0, color="k", lw=0.5)
-    ax.set(xlabel=STRAIN, ylabel="energy per volume\nand C [MJ/m³]")
+    ax.set(xlabel=STRAIN, ylabel="energy per volume\nat jamming and C [MJ/m³]")
     # Once C is held the driving force may be anything; what matters is near the resistance.
     highest = path["resistance_J_per_m3"].max() / 1e6
     if highest > 0:
         low, high = ax.get_ylim()
         ax.set_ylim(max(low, -0.3 * highest), min(high, 1.3 * highest))
-    return _legend_above(ax, 2)
+    return legend_above(ax, 2)
 
 
 def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
-    """Draw work = stored + dissipated, and the part of it that moves the jamming point.
+    """Draw work = stored + dissipated, and the part of the work that moves the jamming point.
+
+    That part may lie above what is dissipated: a grading that crushing made stiffer stores some.
 
     Parameters
     ----------
@@ -129,12 +133,12 @@ def plot_work(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         ("work_J_per_m3", "work", {"color": FAINT, "lw": 2.4}),
         ("free_energy_J_per_m3", "stored", {"color": MEASURED}),
         ("dissipated_J_per_m3", "dissipated", {"color": MODEL}),
-        ("plastic_work_J_per_m3", "plastic compaction", {"color": OTHER, "ls": "--"}),
+        ("plastic_work_J_per_m3", "plastic work", {"color": OTHER, "ls": "--"}),
     ):
         ax.plot(strain, path[column] / 1e6, label=label, **style)
-    ax.set(xlabel=STRAIN, ylabel="energy per volume [MJ/m³]")
+    ax.set(xlabel=STRAIN, ylabel="energy per volume\nat jamming [MJ/m³]")
     _decades_below(ax, path["work_J_per_m3"].max())
-    return _legend_above(ax, 2)
+    return legend_above(ax, 2)
 
 
 def _path(curves: Table, name: str) -> Table:
@@ -147,8 +151,3 @@ def _decades_below(ax: Axes, highest: float) -> None:
         ax.set_yscale("log")
         ax.set_ylim(1e-4 * highest / 1e6, 2.0 * highest / 1e6)
         plain_decades(ax.yaxis)
-
-
-def _legend_above(ax: Axes, columns: int) -> Axes:
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
-    return ax

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
 from branchcrush.plotting import branches, energy, loading, predictors
-from branchcrush.plotting.style import drawn, figure, grid
+from branchcrush.plotting.style import SIZE, drawn, figure, grid
 
 Path = str | os.PathLike
 
@@ -78,7 +78,7 @@ def draw_branch_lengths(
     -------
     Figure
     """
-    with figure(path, dpi) as ax:
+    with figure(path, dpi, (SIZE[0], 3.4)) as ax:  # with room for the legend
         drawn(
             branches.plot_branch_lengths,
             statistics.get("reason"),

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from branchcrush.files.tables import Table
 from branchcrush.forces.fabric import chance_range
 from branchcrush.plotting.intervals import draw_points
-from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, of_states
+from branchcrush.plotting.style import FAINT, OTHER, STATES, axes, legend_above, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 _KINDS = {"branches": ("", "o"), "forces": ("force_", "^")}
@@ -65,9 +65,8 @@ def plot_fabric(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
         ylabel="deviator of the fabric q [-]",
         xlim=(0, line[1] or 1.0),
     )
-    ax.set_ylim(0, 1.6 * ax.get_ylim()[1])
-    ax.legend(loc="upper left", title="root mean square over expected", title_fontsize=6.5)
-    return ax
+    ax.set_ylim(0, None)
+    return legend_above(ax, title="root mean square over expected")
 
 
 def plot_force_distribution(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
@@ -110,8 +109,7 @@ def plot_force_distribution(table: Table, summary: Mapping, ax: Axes | None = No
         yscale="log",
     )
     ax.set(xlim=(0, None), ylim=(max(ax.get_ylim()[0], 1e-5), None))
-    ax.legend(loc="upper right")
-    return ax
+    return legend_above(ax, 2)
 
 
 def plot_force_by_length(
@@ -147,11 +145,8 @@ def plot_force_by_length(
         xlabel=r"branch length $l/R_M$ [-]",
         ylabel=r"mean force $\langle F\rangle_l/\langle F\rangle$ [-]",
     )
-    ax.set(xlim=(0, None), ylim=(0, 1.3 * ax.get_ylim()[1]))
-    ax.legend(
-        loc="upper left", title=r"bins of 20 branches or more; $F \sim l^m$", title_fontsize=6.5
-    )
-    return ax
+    ax.set(xlim=(0, None), ylim=(0, None))
+    return legend_above(ax, title=r"bins of 20 branches or more; $F \sim l^m$")
 
 
 def plot_stress_by_radius(table: Table, radius_max: float, ax: Axes | None = None) -> Axes:
@@ -188,8 +183,7 @@ def plot_stress_by_radius(table: Table, radius_max: float, ax: Axes | None = Non
         xlim=(0, 1.03),
         ylim=(0, min(max(top, 1.1 * float(table["load_bearing_stress_ratio"].max())), 3.5)),
     )
-    ax.legend(loc="upper right")
-    return ax
+    return legend_above(ax, 2)
 
 
 def plot_stress_sharing(table: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
@@ -233,5 +227,4 @@ def plot_stress_sharing(table: Table, summary: Mapping, ax: Axes | None = None) 
         xlim=(0, 1),
         ylim=(0, 1),
     )
-    ax.legend(loc="upper left")
-    return ax
+    return legend_above(ax)

@@ -1,10 +1,10 @@
-"""How a form of the crushing model is drawn: its colour, where it is admissible, and its words.
+"""How a form of the crushing model is drawn: its colour, and where it is admissible.
 
 The form on the front is drawn over the others, and wider. A form is drawn dashed and faint from
-where crushing by it would cost elastic energy.
+where crushing by it would cost elastic energy, and dashed where it yields beyond the measured law.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.style import FORMS
-from branchcrush.study.crushing_words import extrapolated_from
 
 _SHORT = 50.0  # ends of an axis that has few decades
+# Where a form yields at larger elastic strains than any packing had.
+_EXTRAPOLATED = "beyond the measured law"
+_BEYOND: dict[str, Any] = {"ls": (0, (5, 1.5)), "label": _EXTRAPOLATED}
 # Where C jumps under stress.
 SNAP: dict[str, Any] = {"marker": "v", "ms": 5, "mec": "w", "mew": 0.5, "ls": "none"}
 
@@ -61,7 +63,9 @@ def beside_the_paper(model: Mapping) -> set[str]:
     return free | ({"paper", model["form"]} & there.keys())
 
 
-def draw_form(ax: Axes, rows: Table, model: Mapping, x: NDArray, y: NDArray) -> NDArray:
+def draw_form(
+    ax: Axes, rows: Table, model: Mapping, x: NDArray, y: NDArray, *, at_yield: bool = False
+) -> NDArray:
     """Draw a form, dashed and faint from the last C on at which it is admissible.
 
     Parameters
@@ -73,6 +77,9 @@ def draw_form(ax: Axes, rows: Table, model: Mapping, x: NDArray, y: NDArray) -> 
         `thermodynamics.json`.
     x, y : ndarray, shape (rows,)
         What is drawn, in the units of the axes.
+    at_yield : bool
+        Whether it is told at the elastic strain of yield: then it is dashed where that is larger
+        than any that was measured.
 
     Returns
     -------
@@ -82,10 +89,18 @@ def draw_form(ax: Axes, rows: Table, model: Mapping, x: NDArray, y: NDArray) -> 
     name = rows["form"].iloc[0]
     begin = model["forms"][name]["inadmissible_from"]
     admissible = np.full(len(rows), True) if begin is None else rows["crushing"].to_numpy() < begin
-    style = {"color": FORMS[name], "lw": width(name, model)}
+    style = {"color": FORMS[name], "lw": width(name, model), "gid": name}
     kept = int(admissible.sum())
+    beyond = (beyond_law(rows, model) & np.isfinite(y))[:kept] & at_yield
     if kept:
-        ax.plot(x[:kept], y[:kept], label=FORM_LABELS[name], **style)
+        solid = np.where(beyond, np.nan, y[:kept])
+        ax.plot(x[:kept], solid, label=FORM_LABELS[name], **style)
+    if beyond.any():
+        # Up to the points beside, so that the line has no gaps.
+        around = beyond.copy()
+        around[1:] |= beyond[:-1]
+        around[:-1] |= beyond[1:]
+        ax.plot(x[:kept], np.where(around, y[:kept], np.nan), **style | _BEYOND)
     if kept < len(rows):
         first = max(kept - 1, 0)
         faint = {"ls": (0, (3, 2)), "lw": 0.8, "alpha": 0.45}
@@ -93,12 +108,31 @@ def draw_form(ax: Axes, rows: Table, model: Mapping, x: NDArray, y: NDArray) -> 
     return admissible
 
 
+def beyond_law(rows: Table, model: Mapping) -> NDArray:
+    """Return where a form yields at an elastic strain larger than any that was measured.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Of one form in `crushing_forms.csv`.
+    model : mapping
+        `thermodynamics.json`.
+
+    Returns
+    -------
+    ndarray of bool, shape (rows,)
+    """
+    return rows["yield_elastic_strain"].to_numpy() > model["largest_strain"]
+
+
 def width(name: str, model: Mapping) -> float:
     """Return how wide a form is drawn: the one on the front wider."""
     return 2.0 if name == model["form"] else 1.0
 
 
-def form_handles(model: Mapping, shown: Collection[str], snaps: bool = True) -> list[Line2D]:
+def form_handles(
+    model: Mapping, shown: Collection[str], snaps: bool = True, beyond: bool = False
+) -> list[Line2D]:
     """Return what a legend of forms shows, and what dashed lines and marks mean.
 
     Parameters
@@ -109,6 +143,8 @@ def form_handles(model: Mapping, shown: Collection[str], snaps: bool = True) -> 
         Names of forms.
     snaps : bool
         Whether jumps under stress are marked.
+    beyond : bool
+        Whether a line is dashed beyond the measured law.
 
     Returns
     -------
@@ -121,92 +157,21 @@ def form_handles(model: Mapping, shown: Collection[str], snaps: bool = True) -> 
     ]
     if any(form["inadmissible_from"] is not None for form in forms.values()):
         handles.append(Line2D([], [], color="0.5", ls="--", lw=0.9, label="not admissible"))
+    if beyond:
+        handles.append(Line2D([], [], color="0.3", lw=1.2, **_BEYOND))
     if snaps and any(form["snaps"] for form in forms.values()):
         handles.append(Line2D([], [], color="0.5", **SNAP, label="under stress C jumps"))
     return handles
 
 
-def form_notes(model: Mapping, shown: Collection[str]) -> list[str]:
-    """Return in words by which forms crushing costs energy, and from where on.
+def extrapolates(panels: Iterable[Axes]) -> bool:
+    """Return whether a line in one of the panels is dashed, beyond the measured law.
 
     Parameters
     ----------
-    model : mapping
-        `thermodynamics.json`.
-    shown : collection of str
-        Names of forms.
-
-    Returns
-    -------
-    list of str
-        A sentence, or none.
-
-    Examples
-    --------
-    >>> forms = {"moving_jamming": {"inadmissible_from": 0.549}}
-    >>> form_notes({"forms": forms}, ["moving_jamming"])
-    ['Crushing would cost elastic energy: moving jamming point, from C = 0.55.']
+    panels : iterable of Axes
     """
-    costly = []
-    for name in (name for name in FORM_LABELS if name in shown):
-        begin = model["forms"][name]["inadmissible_from"]
-        if begin is not None:
-            where = "at all C" if begin == 0.0 else f"from C = {begin:.2f}"
-            costly.append(f"{FORM_LABELS[name]}, {where}")
-    return [f"Crushing would cost elastic energy: {'; '.join(costly)}."] if costly else []
-
-
-def warnings(model: Mapping) -> list[str]:
-    """Return what of the model is not to be relied on, a sentence each.
-
-    Parameters
-    ----------
-    model : mapping
-        `thermodynamics.json`.
-
-    Returns
-    -------
-    list of str
-
-    Examples
-    --------
-    >>> warnings({"paper_degenerate": "It degenerates.", "untested": "A ratio of 200. At C = 0.5"})
-    ['It degenerates.', 'A ratio of 200.']
-    """
-    said = (model.get(key) for key in ("form_reason", "paper_degenerate", "untested"))
-    return [f"{sentence.split('. ')[0].rstrip('.')}." for sentence in said if sentence]
-
-
-def extrapolated(forms: Table, model: Mapping) -> list[str]:
-    """Return in words from which C on the form on the front yields beyond the measured strains.
-
-    Parameters
-    ----------
-    forms : DataFrame
-        `crushing_forms.csv`.
-    model : mapping
-        `thermodynamics.json`.
-
-    Returns
-    -------
-    list of str
-        A sentence, or none.
-
-    Examples
-    --------
-    >>> import pandas as pd
-    >>> strains = {"crushing": [0.0, 0.5], "yield_elastic_strain": [0.01, 0.2]}
-    >>> forms = pd.DataFrame(strains).assign(form="paper")
-    >>> print(*extrapolated(forms, {"form": "paper", "largest_strain": 0.1}))
-    From C = 0.50 on the front form yields at elastic strains above 10 %, beyond the measured law.
-    """
-    begin = extrapolated_from(forms, model)
-    if begin is None:
-        return []
-    return [
-        f"From C = {begin:.2f} on the front form yields at elastic strains above "
-        f"{100 * model['largest_strain']:.2g} %, beyond the measured law."
-    ]
+    return any(line.get_label() == _EXTRAPOLATED for ax in panels for line in ax.lines)
 
 
 def plain_decades(axis: Axis) -> None:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from branchcrush.crushing.elastic_fits import interpolated_elasticity
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, widen
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, legend_above, widen
 
 
 def plot_mean_stress(path: Table, ax: Axes | None = None) -> Axes:
@@ -35,7 +35,7 @@ def plot_mean_stress(path: Table, ax: Axes | None = None) -> Axes:
 
 
 def plot_energy_balance(path: Table, ax: Axes | None = None) -> Axes:
-    """Draw work, stored and dissipated energy per volume, means over the seeds.
+    """Draw work, stored and dissipated energy per volume as it is then, means over the seeds.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def plot_energy_balance(path: Table, ax: Axes | None = None) -> Axes:
         density = (path[column] / path["volume_m3"] / 1e6).groupby(path["state"]).mean()
         phi = path.groupby("state")["solid_fraction"].mean()
         ax.plot(phi[1:], density[1:], "o-", color=color, label=label)
-    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="energy per volume [MJ/m³]")
+    ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="energy per current volume [MJ/m³]")
     ax.legend(loc="upper left")
     return ax
 
@@ -93,8 +93,7 @@ def plot_coordination(path: Table, ax: Axes | None = None) -> Axes:
     share.set_ylim(0, 100)
     share.spines["right"].set_visible(True)
     ax.plot([], [], "s--", color=OTHER, label="rattlers (right)")
-    ax.legend(loc="best")
-    return widen(ax)
+    return widen(legend_above(ax, 2))
 
 
 def plot_elastic_law(path: Table, summary: Mapping, ax: Axes | None = None) -> Axes:
@@ -143,7 +142,7 @@ def plot_elastic_law(path: Table, summary: Mapping, ax: Axes | None = None) -> A
     ax.plot(line, energy * 1e-6, color=MODEL, label=label)
     ax.set(
         xlabel=r"volumetric strain from jamming $\epsilon$ [%]",
-        ylabel=r"elastic energy $\Psi_0$ [MJ/m³]",
+        ylabel="elastic energy $\\Psi_0$ per volume\nat jamming [MJ/m³]",
     )
     ax.legend(loc="upper left")
     return ax

@@ -7,7 +7,17 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from branchcrush.files.tables import Table
 from branchcrush.plotting.gradings import mark_sizes
-from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, drawn, figure, grid
+from branchcrush.plotting.style import (
+    FAINT,
+    MEASURED,
+    MODEL,
+    OTHER,
+    axes,
+    drawn,
+    figure,
+    grid,
+    legend_above,
+)
 
 _GRADINGS = (
     ("before", "before the test", "-", MEASURED),
@@ -135,10 +145,10 @@ def plot_residuals(curve: Table, ax: Axes | None = None) -> Axes:
     for name, label, style, color in _FITS:
         left = curve[value] - curve[f"{value}_{name}"]
         ax.plot(stress, left, f"o{style}", color=color, lw=0.8, label=label)
-    ax.set(ylabel="measured less fitted [-]")
+    what, unit = _LABELS[value].rsplit(" ", 1)
+    ax.set(ylabel=f"{what},\nmeasured less fitted {unit}")
     _stress_axis(ax, stress)
-    ax.legend(loc="best")
-    return ax
+    return legend_above(ax, 2)
 
 
 def _value(curve: Table) -> str:

@@ -69,7 +69,8 @@ def draw_sharing(
     """
     why = shared.get("reason")
     by_branch = why or shared["end"]["shielding"]["branches"].get("reason")
-    with figure(path, dpi, *grid(4, 2)) as panels:
+    (width, height), panels_of = grid(4, 2)
+    with figure(path, dpi, (width, 1.15 * height), panels_of) as panels:  # with room for legends
         panels.flat[-1].set_axis_off()
         for ax, (name, plot, result, *data) in zip(
             panels.flat[:-1],

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
 from branchcrush.plotting.intervals import draw_points
-from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, of_states
+from branchcrush.plotting.style import FAINT, MODEL, STATES, axes, legend_above, of_states
 from branchcrush.statistics.intervals import Interval, interval_text
 
 
@@ -45,12 +45,8 @@ def plot_branch_shielding(table: Table, summary: Mapping, ax: Axes | None = None
         ylabel="energy over that of all of its length [-]",
     )
     ax.set(xlim=(0, 1), ylim=(0, max(2.0, ax.get_ylim()[1])))
-    ax.legend(
-        loc="upper left",
-        title=r"bins of 20 branches or more; $E \sim l^n (r_{min}/r_{max})^s$",
-        title_fontsize=6.5,
-    )
-    return ax
+    title = r"bins of 20 branches or more; $E \sim l^n (r_{min}/r_{max})^s$"
+    return legend_above(ax, title=title)
 
 
 def plot_grain_shielding(table: Table, reading: str = "contact", ax: Axes | None = None) -> Axes:
@@ -95,5 +91,4 @@ def plot_grain_shielding(table: Table, reading: str = "contact", ax: Axes | None
     )
     ax.set_ylabel(f"energy per {reading} over the mean [-]")
     ax.set_ylim(0.002, max(ax.get_ylim()[1], 10.0))
-    ax.legend(loc="lower left")
-    return ax
+    return legend_above(ax, 2)

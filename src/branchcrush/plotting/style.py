@@ -183,6 +183,34 @@ def widen(ax: Axes, least: float = LEAST_SPREAD) -> Axes:
     return ax
 
 
+def legend_above(ax: Axes, columns: int = 1, title: str | None = None) -> Axes:
+    """Put the legend above the panel, where no data are, and return the Axes.
+
+    Parameters
+    ----------
+    ax : Axes
+    columns : int
+        Of entries.
+    title : str, optional
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> ax = axes()
+    >>> _ = ax.plot([0, 1], [0, 1], label="line")
+    >>> legend = legend_above(ax, title="what is drawn").get_legend()
+    >>> bool(legend.get_window_extent().y0 >= ax.get_window_extent().y1)
+    True
+    """
+    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
+    close = {"columnspacing": 1.0, "handlelength": 1.6, "alignment": "left"}
+    ax.legend(ncols=columns, title=title, title_fontsize=6.5, **place, **close)
+    return ax
+
+
 def of_states(table: Table) -> Iterator[tuple[str, Table]]:
     """Return the rows of each state that a table of networks has, in the order of `STATES`.
 

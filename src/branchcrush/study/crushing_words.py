@@ -18,7 +18,7 @@ FORM_WORDS: Mapping[str, str] = MappingProxyType(
         "and number of branches stay",
         "density": "energy of a branch as lⁿ times branches per volume, gradings mixed by mass",
         "measured_contacts": "the same, with grains meeting by the contact numbers of the packings",
-        "einav": "energy of a grain as its surface D², gradings mixed by mass",
+        "einav": "energy per mass of a grain as D² (of a grain as D⁵), gradings mixed by mass",
         "tengattini": "Einav's energy, and a jamming porosity that falls with breakage",
     }
 )

@@ -34,6 +34,11 @@ class Reading:
         """Return the texts of the legend."""
         return [text.get_text() for text in ax.get_legend().get_texts()]
 
+    def legend_is_above(self, ax):
+        """Return whether the legend is above the panel."""
+        ax.figure.canvas.draw()
+        return ax.get_legend().get_window_extent().y0 >= ax.get_window_extent().y1
+
 
 @pytest.fixture
 def shown():

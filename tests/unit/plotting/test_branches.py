@@ -197,6 +197,7 @@ def test_branch_lengths_are_bars_of_densities_over_the_largest_radius(shown):
     assert dotted == pytest.approx([1.25, 1.1])
     assert ax.get_xlim() == (0.0, 2.0)
     assert "measured, 2 000 branches" in shown.texts(ax)
+    assert shown.legend_is_above(ax)
 
 
 def test_states_have_the_colours_of_their_names():

@@ -100,7 +100,46 @@ def test_a_form_without_energy_at_the_end_does_not_stretch_the_axis():
     table = forms_table()
     table.loc[table["form"] == "paper", RATIOS[0]] = 1.0 - 0.99999 * CRUSHING
     ax = crushing.plot_energy(table, model(), RATIOS[0])
-    assert ax.get_ylim() == pytest.approx((0.01, 10.0))  # to twice 1 + 4 C of Einav
+    assert ax.get_ylim() == pytest.approx((0.01, 3.0))  # to twice 1 + C of the front, to C = 0.5
+
+
+def test_energies_of_front_and_paper_alone_make_the_axis():
+    table = forms_table()
+    table.loc[table["form"] == "einav", RATIOS[0]] = 1.0 - CRUSHING
+    ax = crushing.plot_energy(table, model(), RATIOS[0])
+    # From 1 to 1 + 2 C of the paper: half as much again below, twice above.
+    assert ax.get_ylim() == pytest.approx((1.0 / 1.5, 6.0))
+
+
+def test_the_whole_of_a_moving_jamming_point_is_seen_whatever_is_on_the_front():
+    for front in ("moving_jamming", "paper"):
+        low, high = crushing.plot_jamming(forms_table(), model(front)).get_ylim()
+        assert low < 0.6 and high > 0.7
+
+
+def test_yield_is_dashed_where_it_is_beyond_the_measured_law(shown):
+    table = forms_table()
+    paper = table["form"] == "paper"
+    table.loc[paper, "yield_elastic_strain"] = [0.01, 0.05, 0.09, 0.2, 0.3]
+    stress = 2.0 * 10.0**CRUSHING
+    for ax, y, known in (
+        (crushing.plot_yield_stress(table, model()), stress, 3),
+        (crushing.plot_driving_force(table, model()), 0.6 * (0.6 - CRUSHING), 3),
+    ):
+        solid = np.where(np.arange(5) < known, y, np.nan)
+        assert_allclose(shown.line(ax, PAPER)[1], solid)
+        # From the last point that is known, so that the line goes on.
+        law = shown.line(ax, "beyond the measured law")
+        assert_allclose(law[1], np.where(np.arange(5) < known - 1, np.nan, y))
+
+
+def test_a_line_too_short_for_marks_has_one_that_says_how_far_it_goes():
+    table = forms_table()
+    paper = table["form"] == "paper"
+    table.loc[paper, "yield_stress_Pa"] = 1e6
+    table.loc[paper, "void_ratio"] = 0.7 - 1e-4 * CRUSHING
+    ax = crushing.plot_compression_line(table, curves_table(), model("paper"))
+    assert [text.get_text() for text in ax.texts] == ["C = 0 to 1"]
 
 
 def test_driving_force_is_drawn_with_the_region_where_crushing_costs_energy(shown):

@@ -6,7 +6,8 @@ import pytest
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.plotting import crushing
 from branchcrush.plotting import crushing_figures as figures
-from branchcrush.plotting.form_lines import extrapolated, form_handles, form_notes, warnings
+from branchcrush.plotting.form_lines import form_handles
+from branchcrush.plotting.form_words import extrapolated, form_notes, warnings
 from tests.unit.plotting.crushing_tables import FORMS, curves_table, forms_table, model
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -48,7 +49,9 @@ def test_compression_line_names_the_forms_it_shows_and_where_they_end(drawn):
         "loading and unloading",
     ]
     assert words(axes) == (
-        "Crushing would cost elastic energy: moving jamming point, from C = 0.60."
+        "Crushing would cost elastic energy: moving jamming point, from C = 0.60. "
+        "Outside the panel of void ratio: moving jamming point (in part); "
+        "paper, no branch density (in part); Einav, breakage (in part)."
     )
 
 
@@ -60,10 +63,65 @@ def test_energies_of_all_forms_are_on_one_axis_with_one_legend(drawn):
     assert "density, at all C" in words(axes)
 
 
+def all_forms():
+    """Tables and model with every form there is."""
+    tables = [forms_table(), curves_table()]
+    said = model()
+    for name in set(FORM_LABELS) - set(FORMS):
+        said["forms"][name] = said["forms"]["einav"]
+        tables = [
+            pd.concat([table, table[table["form"] == "einav"].assign(form=name)])
+            for table in tables
+        ]
+    return (*tables, said)
+
+
+def test_legends_with_every_form_are_whole(drawn):
+    forms, curves, said = all_forms()
+    for function, data in (
+        (figures.draw_crushing_model, (forms, curves, said)),
+        (figures.draw_crushing_energy, (forms, said)),
+        (figures.draw_crushing_yield, (forms, curves, said)),
+    ):
+        drawing = drawn(function, *data)[0].figure
+        extent = drawing.legends[0].get_window_extent()
+        assert 0 <= extent.x0 < extent.x1 <= drawing.bbox.x1
+
+
+def test_legends_along_the_path_are_whole_with_a_band_and_a_history(drawn):
+    curves = curves_table()
+    curves["stress_low_Pa"], curves["stress_high_Pa"] = curves["stress_Pa"], curves["stress_Pa"]
+    own = curves[curves["path"] == "crushing"].assign(path="history")
+    axes = drawn(figures.draw_crushing_path, pd.concat([curves, own]), model())
+    for ax in axes:
+        extent = ax.get_legend().get_window_extent()
+        assert 0 <= extent.x0 < extent.x1 <= ax.figure.bbox.x1
+        # And the panels are no narrower for it.
+        assert ax.get_position().width > 0.65
+
+
+def test_what_the_panels_of_yield_do_not_show_is_said(drawn):
+    forms, curves, said = all_forms()
+    forms.loc[forms["form"] == "density", "yield_stress_Pa"] = float("nan")
+    forms.loc[forms["form"] == "paper", "driving_force_over_pressure"] = 5.0
+    text = words(drawn(figures.draw_crushing_yield, forms, curves, said))
+    assert "C never grows: paper with branch density." in text
+    assert "Outside the panel of driving force: paper, no branch density;" in text
+    same = [FORM_LABELS[name] for name in ("measured_contacts", "einav", "tengattini")]
+    assert f"One line of yield stress: {'; '.join(same)}." in text
+
+
+def test_energies_outside_of_the_axis_are_said(drawn):
+    forms = forms_table()
+    forms.loc[forms["form"] == "einav", "energy_at_equal_solid_fraction"] = 1e-3
+    text = words(drawn(figures.draw_crushing_energy, forms, model()))
+    assert "Outside the panel at equal solid fraction: Einav, breakage." in text
+
+
 def test_a_degenerate_form_and_untested_sizes_are_said_on_the_figure(drawn):
     said = model(paper_degenerate=DEGENERATE, untested=UNTESTED)
     axes = drawn(figures.draw_crushing_model, forms_table(), curves_table(), said)
-    assert words(axes).endswith(f"from C = 0.60. {DEGENERATE} {UNTESTED}")
+    assert f"from C = 0.60. {DEGENERATE} {UNTESTED}" in words(axes)
 
 
 def test_a_form_on_the_front_that_is_not_there_says_why(drawn):

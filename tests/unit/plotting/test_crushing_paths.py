@@ -37,12 +37,14 @@ def test_the_band_of_the_stress_is_that_of_the_way_in(shown):
     assert "its band" in shown.texts(ax)
 
 
-def test_a_history_of_the_configuration_is_drawn_beside(shown):
+def test_a_history_of_the_configuration_is_points_beside(shown):
     table = curves_table()
     own = table[(table["path"] == "crushing") & (table["form"] == "moving_jamming")]
     own = own.assign(path="history", stress_Pa=5e6)
     ax = crushing_paths.plot_stress(pd.concat([table, own]), model())
-    assert_allclose(shown.line(ax, "history of the configuration"), [PERCENT, [5.0] * 3])
+    assert_allclose(shown.line(ax, "configured history"), [PERCENT, [5.0] * 3])
+    assert ax.lines[-1].get_linestyle() == "None"
+    assert shown.legend_is_above(ax)
     assert ax.get_ylim()[1] > 5.0
 
 
@@ -54,5 +56,5 @@ def test_driving_force_and_resistance_are_told_apart(shown):
 
 def test_work_stored_dissipated_and_plastic_energy_are_told_apart(shown):
     ax = crushing_paths.plot_work(curves_table(), model())
-    for label, value in (("work", 6), ("stored", 1), ("dissipated", 4), ("plastic compaction", 5)):
+    for label, value in (("work", 6), ("stored", 1), ("dissipated", 4), ("plastic work", 5)):
         assert_allclose(shown.line(ax, label), [PERCENT, [0.0, value, value]])

@@ -210,6 +210,7 @@ def test_fabric_is_a_point_a_seed_of_branches_and_of_forces(shown):
         assert_allclose(shown.line(ax, label), points)
     assert ax.get_xlim()[1] == pytest.approx(1.1 * 0.05)
     assert ax.get_ylim()[1] > 0.12
+    assert shown.legend_is_above(ax)
 
 
 def test_fabric_of_one_state_is_drawn_alone():

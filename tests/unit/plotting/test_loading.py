@@ -94,3 +94,18 @@ def test_elastic_energy_and_its_law_are_per_volume_at_jamming(shown):
     # A eps^3/3 with A = 300 MPa: 0.1 MJ/m3 at 10 %.
     assert law[-1] == pytest.approx(100.0 * (1 - jamming / 0.72) ** 3)
     assert line[-1] == pytest.approx(100 * (1 - jamming / 0.72))
+
+
+def test_rattlers_and_the_other_lines_are_below_the_legend(shown):
+    assert shown.legend_is_above(loading.plot_coordination(seeds()))
+
+
+def test_energies_say_per_which_volume_they_are():
+    model = {
+        "jamming_solid_fraction": 0.58,
+        "elastic_modulus_Pa": 3e8,
+        "elastic_exponent": 2.0,
+        "elastic_r_squared": 0.99,
+    }
+    assert "current volume" in loading.plot_energy_balance(seeds()).get_ylabel()
+    assert "volume\nat jamming" in loading.plot_elastic_law(seeds(), model).get_ylabel()

@@ -500,6 +500,23 @@ def test_a_limit_of_elastic_strain_is_told_with_its_numbers(page):
     assert "begins at 1.25 %" in html and "(strength exponent 0.5)" in html
 
 
+def test_captions_follow_the_form_on_the_front(page):
+    stiffer = "by the form on the front a grading that was crushed is stiffer, and jams at a larger"
+    assert stiffer in page({})
+    softer = "a grading that was crushed is softer, and its jamming point stays.</figcaption>"
+    assert softer in page({"model": MODEL | {"form": "paper"}})
+    html = page({"model": MODEL | {"form": "density"}})
+    assert "whether crushing raises or lowers it.</figcaption>" in html
+
+
+def test_captions_follow_the_resistance(page):
+    assert "crushing goes on where driving force and resistance are equal" in page({})
+    limit = {"resistance": "elastic_strain", "elastic_strain": 0.01, "strength_exponent": 0.3}
+    html = page({"model": MODEL | limit})
+    assert "goes on at the elastic strain of yield, and the resistance is the driving force" in html
+    assert "are equal" not in html
+
+
 def test_page_tells_which_grains_carry_load_by_rods(page):
     html = page({})
     assert "in a periodic cell, by rods that push" in html
