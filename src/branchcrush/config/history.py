@@ -76,7 +76,11 @@ class History(Section):
         given = [key for key in ("strain", "stress", "file") if getattr(self, key) is not None]
         of_file = self.column is not None or self.unit is not None
         if len(given) != 1:
-            which = f"{' and '.join(given)} are given" if given else "none is given"
+            which = (
+                f"{' and '.join(given)} are given"
+                if given
+                else "none is given: give one, or leave history out"
+            )
             raise refusal(f"{_WAYS}; {which}")
         if self.file is None:
             if of_file:

@@ -107,9 +107,9 @@ def test_form_of_the_grading_decides_its_keys():
     assert sample_of(grading=UNIFORM).grading.model_dump() == UNIFORM
 
 
-def test_settings_are_plain_values_that_are_valid_again():
+def test_what_is_given_is_plain_values_that_are_valid_again():
     config = checked_config({"samples": {"mine": SAMPLE}})
-    assert checked_config(config.model_dump()) == config
+    assert checked_config(config.model_dump(exclude_unset=True)) == config
 
 
 def test_raw_configuration_is_left_as_it_was():
