@@ -62,8 +62,8 @@ def draw_crushing_model(
             beyond = extrapolates(panels)
             handles = [*form_handles(model, shown, beyond=beyond), panels[0].lines[-1]]
             notes = [*form_notes(model, shown), *extrapolated(forms, model), *warnings(model)]
-            of = dict(zip(("of void ratio", "of solid fraction"), panels, strict=True))
-            _explain(panels[0].figure, handles, [*notes, *outside(of)])
+            notes += outside({"of solid fraction": panels[1]})
+            _explain(panels[0].figure, handles, notes)
     return panels[0].figure
 
 
@@ -97,7 +97,9 @@ def draw_crushing_energy(path: Path, dpi: int, forms: Table, model: Mapping) -> 
             handles = form_handles(model, shown, snaps=False)
             notes = [*form_notes(model, shown), *warnings(model)]
             of = dict(zip(crushing.COMPARED.values(), panels.flat, strict=True))
-            _explain(panels[0, 0].figure, handles, [*notes, *outside(of)])
+            # The axis is that of these two, as far as it goes.
+            notes += outside(of, {model["form"], "paper"})
+            _explain(panels[0, 0].figure, handles, notes)
     return panels[0, 0].figure
 
 

@@ -72,7 +72,7 @@ def plot_stress(curves: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         # Its states alone: between them the table does not say how the stress went.
         strain, stress = 100 * own["volumetric_strain"], own["stress_Pa"] / 1e6
         ring = {"color": MODEL, "mfc": "w", "ms": 4, "zorder": 5}
-        ax.plot(strain, stress, "o", label="configured history", **ring)
+        ax.plot(strain, stress, "o", label="history", **ring)
     ax.set(xlabel=STRAIN, ylabel="mean stress [MPa]")
     _decades_below(ax, max(path["stress_Pa"].max(), own["stress_Pa"].max() if len(own) else 0.0))
     return legend_above(ax, 3)

@@ -103,7 +103,7 @@ def draw_form(
         ax.plot(x[:kept], np.where(around, y[:kept], np.nan), **style | _BEYOND)
     if kept < len(rows):
         first = max(kept - 1, 0)
-        faint = {"ls": (0, (3, 2)), "lw": 0.8, "alpha": 0.45}
+        faint = {"ls": (0, (3, 2)), "lw": 0.8, "alpha": 0.45, "gid": None}
         ax.plot(x[first:], y[first:], **style | faint)
     return admissible
 

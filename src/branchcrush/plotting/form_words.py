@@ -96,13 +96,15 @@ def extrapolated(forms: Table, model: Mapping) -> list[str]:
     ]
 
 
-def outside(panels: Mapping[str, Axes]) -> list[str]:
-    """Return in words which forms lie outside of the panels they are drawn in.
+def outside(panels: Mapping[str, Axes], but: Collection[str] = ()) -> list[str]:
+    """Return in words which forms lie outside of the panels, where they are admissible.
 
     Parameters
     ----------
     panels : mapping of str to Axes
         What each panel is of, as the sentence says it.
+    but : collection of str
+        Names of forms that are not told.
 
     Returns
     -------
@@ -121,7 +123,7 @@ def outside(panels: Mapping[str, Axes]) -> list[str]:
     sentences = []
     for what, ax in panels.items():
         left = []
-        for name in FORM_LABELS:
+        for name in (name for name in FORM_LABELS if name not in but):
             points = [line.get_xydata() for line in ax.lines if line.get_gid() == name]
             if not points:
                 continue

@@ -91,4 +91,4 @@ def plot_grain_shielding(table: Table, reading: str = "contact", ax: Axes | None
     )
     ax.set_ylabel(f"energy per {reading} over the mean [-]")
     ax.set_ylim(0.002, max(ax.get_ylim()[1], 10.0))
-    return legend_above(ax, 2)
+    return legend_above(ax)

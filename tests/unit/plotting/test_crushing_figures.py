@@ -49,9 +49,7 @@ def test_compression_line_names_the_forms_it_shows_and_where_they_end(drawn):
         "loading and unloading",
     ]
     assert words(axes) == (
-        "Crushing would cost elastic energy: moving jamming point, from C = 0.60. "
-        "Outside the panel of void ratio: moving jamming point (in part); "
-        "paper, no branch density (in part); Einav, breakage (in part)."
+        "Crushing would cost elastic energy: moving jamming point, from C = 0.60."
     )
 
 

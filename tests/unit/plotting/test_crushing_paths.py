@@ -42,7 +42,7 @@ def test_a_history_of_the_configuration_is_points_beside(shown):
     own = table[(table["path"] == "crushing") & (table["form"] == "moving_jamming")]
     own = own.assign(path="history", stress_Pa=5e6)
     ax = crushing_paths.plot_stress(pd.concat([table, own]), model())
-    assert_allclose(shown.line(ax, "configured history"), [PERCENT, [5.0] * 3])
+    assert_allclose(shown.line(ax, "history"), [PERCENT, [5.0] * 3])
     assert ax.lines[-1].get_linestyle() == "None"
     assert shown.legend_is_above(ax)
     assert ax.get_ylim()[1] > 5.0
