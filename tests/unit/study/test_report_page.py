@@ -10,7 +10,7 @@ import pytest
 from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.state_fit import FittedPredictor
-from branchcrush.plotting.form_lines import extrapolated
+from branchcrush.plotting.form_words import extrapolated
 from branchcrush.samples.certificate import LIMITS
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.pages import SamplePage, render_report
