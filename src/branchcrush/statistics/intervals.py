@@ -39,6 +39,7 @@ class Resampling(IntEnum):
     PREDICTORS = 22
     SHARING = 23
     FINDINGS = 24
+    CRUSHED = 25
 
     def rng(self) -> np.random.Generator:
         """Return a generator at the beginning of this state's draws.
