@@ -16,6 +16,7 @@ rule all:
         "results/report.html",
         "results/findings.html",
         ["results/measured.html"] if SETTINGS.measured else [],
+        ["results/crushing.html"] if any(s.breakage for s in SETTINGS.samples.values()) else [],
 
 
 include: "workflow/rules/out_of_date.smk"
@@ -30,6 +31,7 @@ include: "workflow/rules/energy_split.smk"
 include: "workflow/rules/sharing.smk"
 include: "workflow/rules/thermodynamics.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/crushing_results.smk"
 include: "workflow/rules/materials.smk"
 include: "workflow/rules/measured.smk"
 include: "workflow/rules/preview.smk"

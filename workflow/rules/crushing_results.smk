@@ -1,0 +1,120 @@
+# What crushing showed, of the samples whose grains break: all seeds of one -> tables and figures;
+# all samples -> a page of their own, only where there are any.
+
+BREAKING = [name for name, sample in SAMPLES.items() if sample["breakage"]]
+CRUSHING_TABLES = {
+    "states": "crushing_states",
+    "means": "crushing_means",
+    "gradings": "crushing_gradings",
+    "line": "crushing_line",
+    "beside": "crushing_beside_forms",
+}
+CRUSHING_FIGURES = [
+    "crushed_line",
+    "crushed_gradings",
+    "crushed_energy",
+    "crushed_measures",
+    "crushed_forms",
+    "crushed_packing",
+]
+CRUSHING_PAGE = str(ROOT / "workflow/report/crushing.html.jinja")
+
+
+def of_crushed_seeds(file):
+    """Return an input function for a file of the crushing of every seed of the sample."""
+    return lambda wildcards: of_seeds(
+        file, f"{wildcards.sample}/crushing", settings_of(wildcards)["seeds"]
+    )
+
+
+def of_halved_seeds(file):
+    """Return an input function for a file of every seed that is crushed with half the steps."""
+
+    def files(wildcards):
+        name = wildcards.sample + REFINED
+        seeds = REFINED_SAMPLES[name]["seeds"] if name in REFINED_SAMPLES else []
+        return of_seeds(file, f"{name}/crushing", seeds)
+
+    return files
+
+
+rule crushing_results:
+    input:
+        paths=of_crushed_seeds("path.csv"),
+        grains=of_crushed_seeds("grains.parquet"),
+        contacts=of_crushed_seeds("contacts.parquet"),
+        halved_paths=of_halved_seeds("path.csv"),
+        halved_grains=of_halved_seeds("grains.parquet"),
+        halved_contacts=of_halved_seeds("contacts.parquet"),
+        controls=of_all_seeds("path.csv"),
+        fit="results/{sample}/energy_split.json",
+    output:
+        states=table("crushing_states", "every state of every crushing: grading, energies, strain"),
+        means=table("crushing_means", "means over the seeds along the crushing"),
+        gradings=table("crushing_gradings", "gradings at stages of crushing"),
+        line=table("crushing_line", "the compression line, and the one of the gradings alone"),
+        beside=table("crushing_beside_forms", "what every form of the model says of the crushing"),
+        summary="results/{sample}/crushing.json",
+        record="results/{sample}/made/crushing_results.json",
+    log:
+        "logs/{sample}/crushing_results.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushing_results"),
+        sample=section("contact", "breakage", "seeds"),
+        halved=lambda wildcards: REFINED_SAMPLES.get(wildcards.sample + REFINED, {}).get("seeds", []),
+        thermodynamics={
+            key: getattr(SETTINGS.thermodynamics, key)
+            for key in ("ultimate_alpha", "hardening_exponent", "rod_gap")
+        },
+        intervals=INTERVALS,
+    script:
+        "../scripts/crushing_results.py"
+
+
+rule crushing_figures:
+    input:
+        **{name: f"results/{{sample}}/{file}.csv" for name, file in CRUSHING_TABLES.items()},
+        summary="results/{sample}/crushing.json",
+        controls=of_all_seeds("path.csv"),
+        grains=lambda wildcards: of_crushed_seeds("grains.parquet")(wildcards)[:1],
+        path=lambda wildcards: of_crushed_seeds("path.csv")(wildcards)[:1],
+    output:
+        **{name: figure(name) for name in CRUSHING_FIGURES},
+        record="results/{sample}/made/crushing_figures.json",
+    log:
+        "logs/{sample}/crushing_figures.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushing_figures"),
+        tables=list(CRUSHING_TABLES),
+        dpi=SETTINGS.figures.dpi,
+    script:
+        "../scripts/crushing_figures.py"
+
+
+rule crushing_page:
+    input:
+        **{
+            name: expand(f"results/figures/{{sample}}/{name}.png", sample=BREAKING)
+            for name in CRUSHING_FIGURES
+        },
+        summaries=expand("results/{sample}/crushing.json", sample=BREAKING),
+        beside=expand("results/{sample}/crushing_beside_forms.csv", sample=BREAKING),
+        means=expand("results/{sample}/crushing_means.csv", sample=BREAKING),
+    output:
+        page="results/crushing.html",
+        record="results/made/crushing_page.json",
+    log:
+        "logs/crushing_page.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushing_page", CRUSHING_PAGE),
+        template=CRUSHING_PAGE,
+        samples=BREAKING,
+        figures=CRUSHING_FIGURES,
+    script:
+        "../scripts/crushing_page.py"
