@@ -78,9 +78,10 @@ def plot_packing(
     extent: float | None = None,
     pixels: int = 900,
     radius_max: float | None = None,
+    colours: NDArray | None = None,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw a packing in its cell, grains coloured by radius (Fig. 4).
+    """Draw a packing in its cell, grains coloured by radius (Fig. 4) or as given.
 
     Parameters
     ----------
@@ -96,6 +97,8 @@ def plot_packing(
         Width of the picture.
     radius_max : float, optional
         At the dark end of the colours [m].
+    colours : ndarray, shape (N, 3), optional
+        RGB of each grain, 0 to 1.
     ax : Axes, optional
 
     Returns
@@ -111,7 +114,8 @@ def plot_packing(
     ax = axes(ax)
     view = _rotation()
     scale = 0.86 * (extent or edge)
-    colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
+    if colours is None:
+        colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
     image = sphere_image(positions @ view.T, radii, scale, pixels, colours)
     corners = _CUBE * edge @ view.T
     ends = (-scale * 1e3, scale * 1e3)

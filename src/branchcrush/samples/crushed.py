@@ -13,6 +13,7 @@ from branchcrush.samples.crushed_gradings import crushed_gradings, stages_of
 from branchcrush.samples.crushed_line import compression_line
 from branchcrush.samples.crushed_means import crushed_means, per_volume
 from branchcrush.samples.crushed_path import Crushable, control_law, crushed_path
+from branchcrush.samples.measured import EXPONENT
 from branchcrush.samples.crushed_words import crushing_sentences, end_of, energy_summary
 
 # Before the tables of seeds go together: path, grains, and branch lengths of a crushing.
@@ -130,5 +131,10 @@ def _beside(
         law = pooled_law([control_law(path, sample.law) for path in controls.values()])
     except FitError as error:
         return no_forms(), [f"No form of the model is drawn: {error}."]
-    here = means[~means["halved_step"]]
-    return beside_forms(here, from_radii(np.concatenate(firsts)), law, onset, sample, settings)
+    here, first = means[~means["halved_step"]], from_radii(np.concatenate(firsts))
+    if np.isfinite(settings["exponent"]):
+        return beside_forms(here, first, law, onset, sample, settings)
+    table, said = beside_forms(
+        here, first, law, onset, sample, {**settings, "exponent": EXPONENT}
+    )
+    return table, [f"n of the energy split is not known; the forms take {EXPONENT:g}.", *said]

@@ -117,8 +117,11 @@ def compression_line(
         "elastic_strain_scale": scale,
         **_slopes(line, sample, intervals),
         "void_ratio_error": _root_mean_square(line["predicted_void_ratio"] - line["void_ratio"]),
-        "log_stress_error": _root_mean_square(
-            np.log(line["predicted_stress_Pa"] / line["mean_stress_Pa"])
+        # Of the logarithm: e^rms is by what factor the stress is off.
+        "log_stress_factor": float(
+            np.exp(
+                _root_mean_square(np.log(line["predicted_stress_Pa"] / line["mean_stress_Pa"]))
+            )
         ),
     }
 
