@@ -100,7 +100,11 @@ class Session:
         self.command(f"variable edge string {edge:.17g}")
 
     def set_index(self, values: Mapping[str, Any]) -> None:
-        """Give variables of in.compress other values than they were started with."""
+        """Give variables of in.compress other values than they were started with.
+
+        A `run 0` has to follow before any compute is asked for: until then those that read
+        variables know them by numbers that deleting one has changed.
+        """
         for name, value in values.items():
             self.command(f"variable {name} delete")
             text = f"{value:.17g}" if isinstance(value, float) else value
