@@ -240,7 +240,7 @@ class Crushing:
         settings = self._settings(grains)
         session.replace(grains, change, settings)
         self.grains, self.settings = grains, settings
-        put_in, stored = 0.0, self._energy()
+        put_in, stored = 0.0, session.elastic_energy()
         exchanged = self.account.stored - stored
         session.set(is_state=0, tolerance=_STAGE_TOLERANCE, step_limit=_STAGE_EVALUATIONS)
         *stages, _ = rules.growth
@@ -248,11 +248,11 @@ class Crushing:
         full = grains.radius[-change.number.size :]
         for radius in [*(factor * change.touching_radius for factor in stages), full]:
             session.set_radii(change.number, radius)
-            put_in += self._energy() - stored
+            put_in += session.elastic_energy() - stored
             session.include("mass")
             if radius is not full:
                 session.include("relax")
-                stored = self._energy()
+                stored = session.elastic_energy()
         session.set(tolerance=rules.step_tolerance, step_limit=session.read("largest_relaxation"))
         self._relax()
         self.account.broken(
@@ -270,9 +270,6 @@ class Crushing:
             **neighbour_settings(grains.radius, edge),
             "force_floor": force_floor(grains.radius, law),
         }
-
-    def _energy(self):
-        return self.session.rest().elastic_energy
 
     def _note(self, breaks):
         """Note the grains that break; return what is stored in their contacts [J]."""
