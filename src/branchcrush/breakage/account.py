@@ -18,7 +18,7 @@ class Account:
     --------
     >>> account = Account(stored=1.0)
     >>> account.strained(work=3.0, after=2.5)
-    >>> account.broken(after=1.0, parents=0.5, put_in=7.0)
+    >>> account.broken(after=1.0, parents=0.5, exchanged=0.25, put_in=7.0)
     >>> account.rearrangement, account.breakage, account.avalanches
     (1.5, 1.5, 1.0)
     >>> account.work - account.stored - account.breakage - account.rearrangement
@@ -30,6 +30,7 @@ class Account:
     breakage: float = 0.0  # D_b [J]
     parents: float = 0.0  # of it, what was stored in the contacts of grains that broke [J]
     rearrangement: float = 0.0  # D_r [J]
+    exchanged: float = 0.0  # taken out by putting fragments in the place of grains [J]
     growth: float = 0.0  # put in by growing fragments [J]
     rounds: int = 0  # of breakage
     breakages: int = 0
@@ -55,14 +56,23 @@ class Account:
         """Book a relaxation in a cell that keeps still: what is stored after it [J]."""
         self.strained(0.0, after)
 
-    def broken(self, after: float, parents: float, put_in: float, breakages: int = 1) -> None:
-        """Book a round: stored after it, held by grains that broke, put in by growth [J]."""
+    def broken(
+        self,
+        after: float,
+        *,
+        parents: float,
+        exchanged: float,
+        put_in: float,
+        breakages: int = 1,
+    ) -> None:
+        """Book a round: stored after it, held by grains that broke, taken out and put in [J]."""
         rise = after - self.stored
         if rise > 0.0:
             self.rounds_upwards += 1
             self.largest_rise = max(self.largest_rise, rise / self.stored)
         self.breakage -= rise
         self.parents += parents
+        self.exchanged += exchanged
         self.growth += put_in
         self.rounds += 1
         self.breakages += breakages

@@ -26,6 +26,7 @@ _BREAKAGES = {
     "state": "state",
     "step": "step",
     "round": "round",
+    "solid_fraction": "solid_fraction",
     "grain": "number",
     "parent": "parent",
     "generation": "generation",
@@ -171,7 +172,8 @@ def _started(kept, job, positions, edge):
     write_data_file(
         kept.folder / "packing.data", saved.position, saved.radius, saved.edge, saved.number
     )
-    return {**job.variables, **saved.settings, "append": "yes"}
+    going_on = {"append": "yes", "evaluations": saved.evaluations}
+    return {**job.variables, **saved.settings, **going_on}
 
 
 def _tables(work, kept, job, stopped):
@@ -209,6 +211,7 @@ def _path_columns(accounts, grains, path):
         "dissipated_breakage_J": "breakage",
         "released_by_parents_J": "parents",
         "dissipated_rearrangement_J": "rearrangement",
+        "exchanged_energy_J": "exchanged",
         "growth_work_J": "growth",
         "stopped_kinetic_energy_J": "stopped",
     }

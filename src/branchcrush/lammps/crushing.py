@@ -1,30 +1,38 @@
 """Crushing: a compression in LAMMPS in which overloaded grains break, led from Python."""
 
+import contextlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import root_scalar
 
 from branchcrush.breakage.account import Account
 from branchcrush.breakage.criterion import CRITERIA, largest_force
 from branchcrush.breakage.grains import Grains, exchange, first_grains
 from branchcrush.breakage.rules import Breakage
+from branchcrush.errors import SimulationError
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.progress import Job, Progress, Saved
 from branchcrush.lammps.session import Rest, Session
 from branchcrush.loading.states import force_floor
+from branchcrush.packings.geometry import solid_volume
 
 # Evaluations, and the unbalanced force ratio, up to which fragments settle between two stages.
 _STAGE_EVALUATIONS, _STAGE_TOLERANCE = 100, 0.1
-# Of the search for the strain at which the next grain breaks, and the shortest step that it takes,
-# of the strain step: below it the packing leaps past the strength of the grain.
-_MOST_TRIALS, _SHORTEST = 30, 1.0e-4
+# Of the search for the strain at which the next grain breaks, and how near it gets, over the strain
+# step and the tolerance: nearer, the packing leaps past the strength of the grain.
+_MOST_TRIALS, _SHORTEST = 50, 1.0e-2
 
 
 class Ended(Exception):
     """A run ends before its last target, validly: the reason."""
+
+
+class _Near(Exception):
+    """A strain is found at which the first grain breaks."""
 
 
 class Crushing:
@@ -64,18 +72,28 @@ class Crushing:
         session.include("step")
         session.include("state")
         self._look()
+        overloaded = int((self.overload >= 1.0).sum())
+        if overloaded:
+            raise SimulationError(
+                f"{overloaded} grain(s) are overloaded at the end of the approach already, at a "
+                f"mean stress of {session.read('mean_stress'):.3g} Pa: lower "
+                "loading.approach_solid_fraction"
+            )
         self.account = Account(stored=self.rest.elastic_energy)
         self.progress.note_state(self, targets=0)
 
-    def go_on(self, targets: list[float], done: int) -> None:
+    def go_on(self, targets: int, done: int) -> None:
         """Load to each target edge in turn, from where `done` of them are reached."""
-        for number, target in enumerate(targets[done:], done + 1):
-            self.session.set_index({"targets": target})
-            self.session.include("target")
-            self._load()
-            self.session.include("state")
-            self.progress.note_state(self, targets=number)
-            self._end_at_stress()
+        session = self.session
+        for number in range(1, targets + 1):
+            if number > done:
+                session.include("target")
+                self._load()
+                session.include("state")
+                self.progress.note_state(self, targets=number)
+                self._end_at_stress()
+            if number < targets:
+                session.command("next targets")
 
     def _load(self):
         """Take strain steps to a target, all grains at rest and none overloaded after each."""
@@ -95,32 +113,45 @@ class Crushing:
 
     def _strain(self, edge, saved):
         """Strain to an edge and come to rest; return whether a grain broke on the way there."""
-        before, kept = self.session.edge, self._kept()
-        loads = [(before, float(self.overload.max(initial=0.0)))]
+        before, load, kept = self.session.edge, self._largest_overload, self._kept()
         self._strain_to(edge, **saved)
-        if self.rules.stepping == "strain_step" or self.overload.max(initial=0.0) < 1.0:
-            self._book(kept)
-            return False
-        loads.append((edge, float(self.overload.max())))
-        least = _SHORTEST * self.session.read("strain_step") * before
-        for _ in range(_MOST_TRIALS):
-            if loads[-1][1] <= 1.0 + self.rules.event_tolerance:
-                break
-            trial = _between(*loads)
-            short = abs(loads[1][0] - loads[0][0]) <= least
-            if short:  # it leaps: the shortest step that overloads a grain is as near as it gets
-                trial = loads[1][0]
-            self._restore(kept)
-            self._strain_to(trial, is_state=0, tolerance=self.rules.step_tolerance)
-            overload = float(self.overload.max())
-            loads[int(overload >= 1.0)] = (trial, overload)
-            if short:
-                break
-        if self.overload.max() < 1.0:  # the last trial was the lower end
-            self._restore(kept)
-            self._strain_to(loads[1][0], is_state=0, tolerance=self.rules.step_tolerance)
+        reached, beyond = edge, self._largest_overload
+        if self.rules.stepping == "events" and beyond > 1.0 + self.rules.event_tolerance:
+            reached = self._first_event(kept, {before: load, edge: beyond})
         self._book(kept)
-        return loads[1][0] != edge
+        return reached != edge
+
+    def _first_event(self, kept, loads):
+        """Strain to where the first grain breaks, and return the edge there.
+
+        `loads` holds the largest overload at both ends of the strain step, by edge.
+        """
+        before, end = loads
+        tolerance = self.rules.event_tolerance
+
+        def excess(edge):
+            if edge not in loads:
+                self._restore(kept)
+                self._strain_to(edge, is_state=0, tolerance=self.rules.step_tolerance)
+                loads[edge] = self._largest_overload
+                if 1.0 <= loads[edge] <= 1.0 + tolerance:
+                    raise _Near
+            # A little above, where the grain does break.
+            return loads[edge] - 1.0 - tolerance / 2.0
+
+        # Where the packing leaps past the strength, there is no such place: it ends at the leap.
+        shortest = _SHORTEST * tolerance * abs(end - before)
+        with contextlib.suppress(_Near):
+            root_scalar(excess, bracket=(before, end), xtol=shortest, maxiter=_MOST_TRIALS)
+        found = min((edge for edge in loads if loads[edge] >= 1.0), key=lambda at: abs(at - before))
+        if self.session.edge != found:
+            self._restore(kept)
+            self._strain_to(found, is_state=0, tolerance=self.rules.step_tolerance)
+        return found
+
+    @property
+    def _largest_overload(self):
+        return float(self.overload.max(initial=0.0))
 
     def _strain_to(self, edge, *, is_state, tolerance):
         session = self.session
@@ -209,21 +240,28 @@ class Crushing:
         settings = self._settings(grains)
         session.replace(grains, change, settings)
         self.grains, self.settings = grains, settings
-        put_in, stored = 0.0, self._energy()
+        put_in, stored = 0.0, session.elastic_energy()
+        exchanged = self.account.stored - stored
         session.set(is_state=0, tolerance=_STAGE_TOLERANCE, step_limit=_STAGE_EVALUATIONS)
         *stages, _ = rules.growth
         # The last one as it is kept, to the last digit.
         full = grains.radius[-change.number.size :]
         for radius in [*(factor * change.touching_radius for factor in stages), full]:
             session.set_radii(change.number, radius)
-            put_in += self._energy() - stored
+            put_in += session.elastic_energy() - stored
             session.include("mass")
             if radius is not full:
                 session.include("relax")
-                stored = self._energy()
+                stored = session.elastic_energy()
         session.set(tolerance=rules.step_tolerance, step_limit=session.read("largest_relaxation"))
         self._relax()
-        self.account.broken(self.rest.elastic_energy, parents, put_in, number.size)
+        self.account.broken(
+            self.rest.elastic_energy,
+            parents=parents,
+            exchanged=exchanged,
+            put_in=put_in,
+            breakages=number.size,
+        )
 
     def _settings(self, grains):
         """Return the variables of in.compress that sizes decide."""
@@ -232,9 +270,6 @@ class Crushing:
             **neighbour_settings(grains.radius, edge),
             "force_floor": force_floor(grains.radius, law),
         }
-
-    def _energy(self):
-        return self.session.rest().elastic_energy
 
     def _note(self, breaks):
         """Note the grains that break; return what is stored in their contacts [J]."""
@@ -258,7 +293,7 @@ class Crushing:
             round=self.account.rounds + 1,
             step=int(self.session.read("step")),
             state=int(self.session.read("state")),
-            edge=self.session.edge,
+            solid_fraction=solid_volume(grains.radius) / self.session.edge**3,
         )
         return float(rest.energy[own].sum() + rest.wall_energy[at_wall].sum())
 
@@ -266,14 +301,6 @@ class Crushing:
         largest = self.rules.largest_mean_stress
         if largest is not None and self.session.read("mean_stress") >= largest:
             raise Ended(f"the mean stress has reached largest_mean_stress {largest:g} Pa")
-
-
-def _between(lower, upper):
-    """Return the edge where the overload is a little above 1, by regula falsi."""
-    (edge, load), (end, more) = lower, upper
-    # Within the middle of the bracket, so that it shrinks from both sides.
-    share = np.clip((1.0 - load) / (more - load) if more > load else 0.5, 0.1, 0.9)
-    return edge + share * (end - edge)
 
 
 def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
@@ -305,7 +332,7 @@ def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
         else:
             crushing = _restored(session, job, saved, progress)
             done = saved.targets
-        crushing.go_on(job.targets, done)
+        crushing.go_on(len(job.targets), done)
     except Ended as end:
         return str(end)
     return ""
@@ -313,7 +340,6 @@ def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
 
 def _restored(session: Session, job: Job, saved: Saved, progress: Progress) -> Crushing:
     """Return the crushing as it was at a saved state, of which LAMMPS has read the grains."""
-    session.command(f"reset_timestep {saved.evaluations}")
     session.set(**saved.scalars, step_limit=session.read("largest_relaxation"))
     session.set_edge(saved.edge)
     session.set(grains=saved.number.size)

@@ -100,7 +100,11 @@ class Session:
         self.command(f"variable edge string {edge:.17g}")
 
     def set_index(self, values: Mapping[str, Any]) -> None:
-        """Give variables of in.compress other values than they were started with."""
+        """Give variables of in.compress other values than they were started with.
+
+        A `run 0` has to follow before any compute is asked for: until then those that read
+        variables know them by numbers that deleting one has changed.
+        """
         for name, value in values.items():
             self.command(f"variable {name} delete")
             text = f"{value:.17g}" if isinstance(value, float) else value
@@ -150,6 +154,18 @@ class Session:
             wall_direction,
             self.law.energy(wall_force, radius[wall_grain]),
         )  # fmt: skip
+
+    def elastic_energy(self) -> float:
+        """Return the energy of all contacts [J]: that of `rest`, in a fraction of its time."""
+        number, position, radius = self._grains()
+        of_number = np.zeros(number.max() + 1)
+        of_number[number] = radius
+        ids, pairs = self._pairs()
+        first, second = (of_number[ids[:, n].astype(int) - 1] for n in (0, 1))
+        energy = self.law.energy(pairs[:, _FORCE], reduced_radius(first, second)).sum()
+        grain, depth, _ = self._walls(position, radius)
+        at_wall = self.law.energy(self.law.force(depth, radius[grain]), radius[grain])
+        return float(energy + at_wall.sum())
 
     def local_order(self) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Return number, position, radius and mass of all grains in the order LAMMPS has them.
