@@ -115,6 +115,11 @@ rule comparison:
         run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
         dictionary=dictionary_digest(),
         measured={name: "compression" in material for name, material in MEASURED.items()},
+        breaking=[
+            name
+            for name, sample in {**SAMPLES, **REFINED_SAMPLES}.items()
+            if sample["breakage"]
+        ],
     script:
         "../scripts/comparison.py"
 

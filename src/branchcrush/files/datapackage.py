@@ -1,6 +1,6 @@
 """The description of a study's results for programs: a Data Package, `datapackage.json`."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from branchcrush.files.dictionary import ResultFile, result_files
@@ -23,7 +23,9 @@ _DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
 _LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage.json")
 _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
-_RUN_AGAIN = ("compression", "certificate")
+_RUN_AGAIN = ("compression", "certificate", "crushing")
+# Of samples whose grains break; the first of the seeds that are run again, too.
+_OF_BREAKING = ("crushing", "crushing_results", "crushing_figures", "crushing_page")
 # Of materials that a laboratory measured; the second of those with a compression curve.
 _OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
 
@@ -32,6 +34,7 @@ def data_package(
     samples: Mapping[str, Sequence[int]],
     run_again: Mapping[str, Sequence[int]],
     measured: Mapping[str, bool] | None = None,
+    breaking: Collection[str] = (),
 ) -> dict[str, Any]:
     """Return the description of all files of a study, with every column's type, unit and meaning.
 
@@ -46,6 +49,8 @@ def data_package(
         packings and their certificates alone.
     measured : mapping, optional
         By name of a measured material whether it has a compression curve.
+    breaking : collection of str
+        Names of the samples whose grains break, and of what of them is run again.
 
     Returns
     -------
@@ -73,6 +78,8 @@ def data_package(
             paths = _paths_of_materials(file, measured or {})
         else:
             everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
+            if file.rule in _OF_BREAKING:
+                everything = {name: everything[name] for name in everything if name in breaking}
             paths = _paths(file.path, everything)
         resources += [_resource(file, path) for path in paths]
     return {
@@ -87,7 +94,7 @@ def data_package(
 def _paths(path: str, samples: Mapping[str, Sequence[int]]) -> Iterator[str]:
     """Yield the files of one kind that a study has."""
     if "<sample>" not in path:
-        yield path
+        yield from [path] if samples else []
         return
     for sample, seeds in samples.items():
         of_sample = path.replace("<sample>", sample)

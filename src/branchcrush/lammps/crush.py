@@ -193,6 +193,10 @@ def _tables(work, kept, job, stopped):
         "state": np.repeat(tables.path["state"], counts),
         **{name: np.concatenate([part[key] for part in grains]) for name, key in _GRAINS.items()},
     }
+    # Of the loose packing it is not kept; packing.npz has it.
+    position = np.concatenate([part["position"] for part in grains])
+    position[: counts[0]] = np.nan
+    of_grains |= dict(zip(("x_m", "y_m", "z_m"), position.T, strict=True))
     present = [part for part in broken if part]
     of_broken = {
         name: np.concatenate([part[key] for part in present]) if present else np.zeros(0)

@@ -132,8 +132,11 @@ class Progress:
 
     def _write_state(self, crushing, state, plain, arrays):
         grains = crushing.grains
+        order = np.argsort(arrays["number"])
+        place = order[np.searchsorted(arrays["number"][order], grains.number)]
         columns = {
             "number": grains.number,
+            "position": arrays["position"][place],
             "radius": grains.radius,
             "strength": grains.strength,
             "parent": grains.parent,

@@ -13,6 +13,7 @@ from branchcrush.statistics.intervals import Interval, Resampling, pooled_interv
 
 # Share of the mass in fragments from which on a packing yields, and states that a line needs.
 YIELDED, _STATES = 0.05, 4
+_UNITS = ("_J_per_m3", "_Pa")
 
 
 def on_the_line(states: pd.DataFrame) -> pd.DataFrame:
@@ -153,6 +154,35 @@ def mean_interval(values: Sequence[float], intervals: Mapping[str, Any]) -> Inte
     return pooled_interval(
         sums, lambda x: x[:, 0] / x[:, 1], rng=Resampling.CRUSHED.rng(), **intervals
     )
+
+
+def named_mean(
+    name: str, values: Sequence[float], intervals: Mapping[str, Any]
+) -> dict[str, float]:
+    """Return `mean_interval` by its names in tables, where a unit stays last.
+
+    Parameters
+    ----------
+    name : str
+        Of the quantity, with its unit.
+    values : sequence of float
+        Of each seed.
+    intervals : mapping
+        confidence and resamples.
+
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
+    >>> list(named_mean("stress_Pa", [1.0], {"confidence": 0.95, "resamples": 100}))
+    ['stress_Pa', 'stress_low_Pa', 'stress_high_Pa']
+    """
+    unit = next((unit for unit in _UNITS if name.endswith(unit)), "")
+    stem = name.removesuffix(unit)
+    named = mean_interval(values, intervals).named(stem)
+    return {key + unit: value for key, value in named.items()}
 
 
 def _slopes(line: pd.DataFrame, sample: Crushable, intervals: Mapping[str, Any]) -> dict:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from branchcrush.samples.crushed_line import mean_interval
+from branchcrush.samples.crushed_line import named_mean
 from branchcrush.samples.crushed_path import PARTS
 
 # Quantities of a state of which the mean over seeds is told.
@@ -76,6 +76,6 @@ def crushed_means(states: pd.DataFrame, intervals: Mapping[str, Any]) -> pd.Data
             "void_ratio": here["void_ratio"].mean(),
         }
         for name in AVERAGED:
-            row |= mean_interval(here[name].to_list(), intervals).named(name)
+            row |= named_mean(name, here[name].to_list(), intervals)
         rows.append(row)
     return pd.DataFrame(rows)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from branchcrush.samples.crushed_line import YIELDED, mean_interval
+from branchcrush.samples.crushed_line import YIELDED, named_mean
 from branchcrush.samples.crushed_path import PARTS
 
 _AT_END = (
@@ -30,7 +30,6 @@ _WORDS = {
     "avalanches": "lost in the avalanches after them",
     "rearrangement": "lost in rearrangement while straining",
 }
-# Differences of shares that no seed's scatter is smaller than [-].
 _PERCENT = 100.0
 
 
@@ -53,7 +52,7 @@ def end_of(states: pd.DataFrame, intervals: Mapping[str, Any]) -> dict[str, Any]
     end = _last_common(whole)
     told: dict[str, Any] = {"last_state": int(end["state"].iloc[0]), "breakages": int(end["breakages"].sum())}
     for name in _AT_END:
-        told |= mean_interval(end[name].to_list(), intervals).named(f"{name}_at_end")
+        told |= named_mean(f"final_{name}", end[name].to_list(), intervals)
     loaded = whole[whole["carries_load"].astype(bool)]
     gap = loaded["jamming_by_rods"] - loaded["jamming_by_elastic_strain"]
     yielded = loaded[loaded["broken_mass_fraction"] >= YIELDED]
@@ -87,9 +86,9 @@ def energy_summary(states: pd.DataFrame, intervals: Mapping[str, Any]) -> dict[s
     end = _last_common(whole)
     told: dict[str, Any] = {}
     for part in PARTS:
-        told |= mean_interval(end[f"{part}_share"].to_list(), intervals).named(f"{part}_share")
+        told |= named_mean(f"{part}_share", end[f"{part}_share"].to_list(), intervals)
     driven = end["compaction_work_J_per_m3"] / end["dissipated_J_per_m3"]
-    told |= mean_interval(driven.to_list(), intervals).named("compaction_over_dissipated")
+    told |= named_mean("compaction_over_dissipated", driven.to_list(), intervals)
     same = {"_same_seeds": whole[whole["seed"].isin(half["seed"])], "_halved": half}
     if len(half):
         shared = set.intersection(*(set(rows["state"]) for rows in same.values()))

@@ -90,8 +90,8 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
             f"{by_alpha}."
         ),
         "crushed_gradings": (
-            f"At the end {_told(s, 'broken_mass_fraction_at_end', 100, '%.0f')} % of the mass is "
-            f"in fragments, and {_told(s, 'grains_at_end', 1, '%.0f')} grains are in the cell"
+            f"At the end {_told(s, 'final_broken_mass_fraction', 100, '%.0f')} % of the mass is "
+            f"in fragments, and {_told(s, 'final_grains', 1, '%.0f')} grains are in the cell"
             + (
                 "."
                 if _missing(s["number_exponent"])
@@ -108,20 +108,20 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
             "at the end."
         ),
         "crushed_measures": (
-            f"At the end Einav's B is {_told(s, 'einav_breakage_at_end')} on the way to the "
-            f"limit, {_told(s, 'einav_breakage_down_to_0_at_end')} on the way to grains of no "
-            f"size; the paper's C is {_told(s, 'crushing_by_contacts_at_end')} by the measured "
-            f"contacts and {_told(s, 'crushing_by_random_contacts_at_end')} by Eq. 4."
+            f"At the end Einav's B is {_told(s, 'final_einav_breakage')} on the way to the "
+            f"limit, {_told(s, 'final_einav_breakage_down_to_0')} on the way to grains of no "
+            f"size; the paper's C is {_told(s, 'final_crushing_by_contacts')} by the measured "
+            f"contacts and {_told(s, 'final_crushing_by_random_contacts')} by Eq. 4."
         ),
         "crushed_forms": (
             "At equal solid fraction the crushed packing carries "
-            f"{_told(s, 'stress_over_control_at_end', 100, '%.1f')} % of the stress and holds "
-            f"{_told(s, 'energy_over_control_at_end', 100, '%.1f')} % of the energy of grains "
+            f"{_told(s, 'final_stress_over_control', 100, '%.1f')} % of the stress and holds "
+            f"{_told(s, 'final_energy_over_control', 100, '%.1f')} % of the energy of grains "
             "that do not break; moving the jamming point of its gradings takes "
             f"{_told(s, 'compaction_over_dissipated', 100, '%.0f')} % of what is lost."
         ),
         "crushed_packing": (
-            f"From the first grains to {_told(s, 'grains_at_end', 1, '%.0f')}: fragments fill the "
+            f"From the first grains to {_told(s, 'final_grains', 1, '%.0f')}: fragments fill the "
             "pores between first grains that still stand."
         ),
     }

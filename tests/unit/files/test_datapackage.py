@@ -4,12 +4,12 @@ from branchcrush.files.datapackage import data_package
 from branchcrush.files.dictionary import result_files
 
 MATERIALS = {"quartz": True, "sieved": False}  # whether there is a compression curve
-PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS)
+PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS, ["Sand", "Sand-refined"])
 BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
 
 
 def test_every_sample_and_seed_has_its_files_and_names_are_unique():
-    packings = [path for path in BY_PATH if path.endswith("/path.csv")]
+    packings = [path for path in BY_PATH if path.endswith("/path.csv") and "crushing" not in path]
     assert packings == [
         "Sand/seed_1/path.csv",
         "Sand/seed_2/path.csv",
@@ -36,6 +36,20 @@ def test_a_material_has_the_files_of_what_was_measured_and_a_study_without_one_h
     assert {"measured.html", "figures/measured/sieved/gradings.png"} <= of_materials
     paths = [resource["path"] for resource in data_package({"sand": [1]}, {})["resources"]]
     assert not [path for path in paths if "measured" in path]
+
+
+def test_a_sample_whose_grains_break_has_its_crushing_and_another_has_none():
+    crushed = {path for path in BY_PATH if path.endswith("breakages.parquet")}
+    assert crushed == {
+        f"{name}/crushing/seed_{seed}/breakages.parquet"
+        for name, seed in (("Sand", 1), ("Sand", 2), ("Sand-refined", 1))
+    }
+    assert {"Sand/crushing_states.csv", "figures/Sand/crushed_line.png"} <= set(BY_PATH)
+    assert "sand/crushing_states.csv" not in BY_PATH
+    assert "Sand-refined/crushing_states.csv" not in BY_PATH
+    assert "crushing.html" in BY_PATH
+    paths = [resource["path"] for resource in data_package({"sand": [1]}, {})["resources"]]
+    assert not {"crushing.html", "sand/crushing/seed_1/path.csv"} & set(paths)
 
 
 def test_a_table_has_a_schema_with_units_and_says_where_its_comment_is():
