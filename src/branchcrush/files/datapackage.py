@@ -20,7 +20,13 @@ _KINDS = {
 _DIALECT = {"headerRows": [2], "commentRows": [1], "commentChar": "#"}
 # What a study makes only when it is asked for, what it notes of its own work, the description
 # itself, and LAMMPS's dumps.
-_LEFT_OUT = ("preview", "<rule>", "<sample>/seed_<seed>/made.json", "datapackage.json")
+_LEFT_OUT = (
+    "preview",
+    "<rule>",
+    "<sample>/seed_<seed>/made.json",
+    "<sample>/crushing/seed_<seed>/made.json",
+    "datapackage.json",
+)
 _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate", "crushing")
