@@ -85,7 +85,7 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
         "crushed_line": (
             "There is no compression line yet."
             if _missing(s["slope"])
-            else f"Beyond yield the void ratio falls as e ~ p^−λ with λ = {_told(s, 'slope')}; the "
+            else f"Beyond yield −d ln e/d ln p is {_told(s, 'slope')}; the "
             f"strength's fall with size, b = {b:g}, says 1/(2b) = {s['slope_by_strength']:.2f}"
             f"{by_alpha}."
         ),
@@ -95,8 +95,9 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
             + (
                 "."
                 if _missing(s["number_exponent"])
-                else f"; their number goes as d^−α with α = {_told(s, 'number_exponent')}, where "
-                f"the limiting grading has {s['ultimate_alpha']:g}."
+                else f"; the number of those larger than d falls as a power of d, with "
+                f"α = {_told(s, 'number_exponent')}; the limiting grading has "
+                f"{s['ultimate_alpha']:g}."
             )
         ),
         "crushed_energy": (
@@ -121,8 +122,9 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
             f"{_told(s, 'compaction_over_dissipated', 100, '%.0f')} % of what is lost."
         ),
         "crushed_packing": (
-            f"From the first grains to {_told(s, 'final_grains', 1, '%.0f')}: fragments fill the "
-            "pores between first grains that still stand."
+            f"The cell fills with fragments, to {_told(s, 'final_grains', 1, '%.0f')} grains; "
+            f"{100 - 100 * s['final_broken_mass_fraction']:.0f} % of the mass is still in first "
+            "grains."
         ),
     }
 
@@ -188,5 +190,13 @@ def _told(summary: Mapping[str, Any], name: str, scale: float = 1.0, form: str =
     values = [summary[key] for key in interval_names(name)]
     if _missing(values[0]):
         return "an unknown part of 100" if scale == 100 else "unknown"
-    estimate, *ends = (None if _missing(value) else form % (scale * value) for value in values)
+    estimate, *ends = (
+        None if _missing(value) else _number(scale * value, form) for value in values
+    )
     return f"{estimate}" if None in ends else f"{estimate} ({ends[0]} to {ends[1]})"
+
+
+def _number(value: float, form: str) -> str:
+    """Format a number; one that rounds to 0 has no sign."""
+    text = form % value
+    return text.removeprefix("-") if float(text) == 0.0 else text
