@@ -63,7 +63,9 @@ rule crushing_results:
     params:
         code=code("crushing_results"),
         sample=section("contact", "breakage", "seeds"),
-        halved=lambda wildcards: REFINED_SAMPLES.get(wildcards.sample + REFINED, {}).get("seeds", []),
+        halved=lambda wildcards: REFINED_SAMPLES.get(wildcards.sample + REFINED, {}).get(
+            "seeds", []
+        ),
         thermodynamics={
             key: getattr(SETTINGS.thermodynamics, key)
             for key in ("ultimate_alpha", "hardening_exponent", "rod_gap")

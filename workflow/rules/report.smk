@@ -116,9 +116,7 @@ rule comparison:
         dictionary=dictionary_digest(),
         measured={name: "compression" in material for name, material in MEASURED.items()},
         breaking=[
-            name
-            for name, sample in {**SAMPLES, **REFINED_SAMPLES}.items()
-            if sample["breakage"]
+            name for name, sample in {**SAMPLES, **REFINED_SAMPLES}.items() if sample["breakage"]
         ],
     script:
         "../scripts/comparison.py"

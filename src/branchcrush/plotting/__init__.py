@@ -11,6 +11,8 @@
 `crushing`, `crushing_paths`, `form_lines`, `form_words`
     The panels of the crushing model, against C and along the strain; how its forms are drawn, and
     what is said of them below a figure.
+`crushed`, `crushed_figures`
+    Grains that break: panels, and the figures of a sample.
 `study`, `study_networks`
     The panels of all samples.
 `style`, `intervals`

@@ -169,7 +169,11 @@ def plot_energy(means: Table, ax: Axes | None = None) -> Axes:
         for halved, rows in full.groupby("halved_step"):
             style = {"ls": "--", "lw": 0.9} if halved else {"label": label}
             ax.plot(
-                rows["solid_fraction"], 100.0 * rows[f"{name}_share"], color=color, gid=name, **style
+                rows["solid_fraction"],
+                100.0 * rows[f"{name}_share"],
+                color=color,
+                gid=name,
+                **style,
             )
     if full["halved_step"].any():
         ax.plot([], [], "--", color="0.4", lw=0.9, label="half the strain step")
@@ -256,9 +260,7 @@ def plot_dissipation(means: Table, beside: Table, ax: Axes | None = None) -> Axe
     return legend_above(ax, 2)
 
 
-def _points(
-    ax: Axes, means: Table, name: str, scale: float, marker: str, label: str
-) -> None:
+def _points(ax: Axes, means: Table, name: str, scale: float, marker: str, label: str) -> None:
     """Draw means over seeds as points, and the halved step's smaller."""
     for halved, rows in means.groupby("halved_step"):
         style = {"ms": 2.0, "alpha": 0.5} if halved else {"label": label}

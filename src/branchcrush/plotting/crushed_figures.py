@@ -44,9 +44,7 @@ def draw_line(
         crushed.plot_jamming(states, ax=panels[1])
 
 
-def draw_gradings(
-    path: str | PathLike[str], dpi: int, gradings: Table, summary: Mapping
-) -> None:
+def draw_gradings(path: str | PathLike[str], dpi: int, gradings: Table, summary: Mapping) -> None:
     """Draw gradings at stages of crushing.
 
     Parameters

@@ -13,8 +13,8 @@ from branchcrush.samples.crushed_gradings import crushed_gradings, stages_of
 from branchcrush.samples.crushed_line import compression_line
 from branchcrush.samples.crushed_means import crushed_means, per_volume
 from branchcrush.samples.crushed_path import Crushable, control_law, crushed_path
-from branchcrush.samples.measured import EXPONENT
 from branchcrush.samples.crushed_words import crushing_sentences, end_of, energy_summary
+from branchcrush.samples.measured import EXPONENT
 
 # Before the tables of seeds go together: path, grains, and branch lengths of a crushing.
 Crushing = Callable[[], tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]]
@@ -134,7 +134,5 @@ def _beside(
     here, first = means[~means["halved_step"]], from_radii(np.concatenate(firsts))
     if np.isfinite(settings["exponent"]):
         return beside_forms(here, first, law, onset, sample, settings)
-    table, said = beside_forms(
-        here, first, law, onset, sample, {**settings, "exponent": EXPONENT}
-    )
+    table, said = beside_forms(here, first, law, onset, sample, {**settings, "exponent": EXPONENT})
     return table, [f"n of the energy split is not known; the forms take {EXPONENT:g}.", *said]

@@ -98,7 +98,9 @@ def beside_forms(
     """
     ultimate = sample.ultimate(first)
     if ultimate is None:
-        return no_forms(), ["No grain is larger than the comminution limit: no form has a way to go."]
+        return no_forms(), [
+            "No grain is larger than the comminution limit: no form has a way to go."
+        ]
     path = mixing_path(first, ultimate, sample.law, gap=settings["rod_gap"])
     density = states["solid_fraction"].to_numpy()
     strain = 1.0 - path.solid_fraction[0] / density

@@ -120,9 +120,7 @@ def compression_line(
         "void_ratio_error": _root_mean_square(line["predicted_void_ratio"] - line["void_ratio"]),
         # Of the logarithm: e^rms is by what factor the stress is off.
         "log_stress_factor": float(
-            np.exp(
-                _root_mean_square(np.log(line["predicted_stress_Pa"] / line["mean_stress_Pa"]))
-            )
+            np.exp(_root_mean_square(np.log(line["predicted_stress_Pa"] / line["mean_stress_Pa"])))
         ),
     }
 

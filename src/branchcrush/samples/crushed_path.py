@@ -100,9 +100,7 @@ def crushed_path(
     rows["elastic_strain"] = _elastic_strain(path, sample.law)
     rows = pd.concat([rows, energies(path), _beside_control(path, control)], axis=1)
     first = radii[path["state"].iloc[0]].to_numpy()
-    of_gradings = [
-        grading_row(first, radii[state].to_numpy(), sample) for state in path["state"]
-    ]
+    of_gradings = [grading_row(first, radii[state].to_numpy(), sample) for state in path["state"]]
     rows = pd.concat([rows, pd.DataFrame(of_gradings)], axis=1)
     rows["jamming_by_elastic_strain"] = rows["solid_fraction"] * (1.0 - rows["elastic_strain"])
     rows["crushing_by_contacts"] = _by_contacts(path, branches, from_radii(first), sample)

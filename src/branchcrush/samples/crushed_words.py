@@ -50,7 +50,10 @@ def end_of(states: pd.DataFrame, intervals: Mapping[str, Any]) -> dict[str, Any]
     """
     whole = states[~states["halved_step"]]
     end = _last_common(whole)
-    told: dict[str, Any] = {"last_state": int(end["state"].iloc[0]), "breakages": int(end["breakages"].sum())}
+    told: dict[str, Any] = {
+        "last_state": int(end["state"].iloc[0]),
+        "breakages": int(end["breakages"].sum()),
+    }
     for name in _AT_END:
         told |= named_mean(f"final_{name}", end[name].to_list(), intervals)
     loaded = whole[whole["carries_load"].astype(bool)]

@@ -18,6 +18,8 @@
     The forms of the crushing model in words, and the one on the front along C.
 `pages`
     `render_report` and `render_findings` fill the templates of `workflow/report`.
+`measured_page`, `crushing_page`
+    The same for what a laboratory measured, and for grains that break.
 
 A new number of all samples is a line of `findings.finding_row`; a new question is a line of
 `verdicts.verdicts` and a sentence of the template. A new warning before a run is one of

@@ -4,7 +4,9 @@ from branchcrush.files.datapackage import data_package
 from branchcrush.files.dictionary import result_files
 
 MATERIALS = {"quartz": True, "sieved": False}  # whether there is a compression curve
-PACKAGE = data_package({"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS, ["Sand", "Sand-refined"])
+PACKAGE = data_package(
+    {"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS, ["Sand", "Sand-refined"]
+)
 BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
 
 

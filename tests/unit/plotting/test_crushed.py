@@ -92,8 +92,6 @@ def test_all_figures_are_drawn_also_where_no_grain_broke(broken, tmp_path):
     crushed_figures.draw_measures(
         tmp_path / "measures.png", 50, result.means, result.beside, summary
     )
-    crushed_figures.draw_forms(
-        tmp_path / "forms.png", 50, result.means, result.beside, controls
-    )
+    crushed_figures.draw_forms(tmp_path / "forms.png", 50, result.means, result.beside, controls)
     crushed_figures.draw_packing(tmp_path / "packing.png", 50, grains, path, summary)
     assert len(list(tmp_path.glob("*.png"))) == 6

@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from tests.unit.samples.crushed_runs import INTERVALS, SAMPLE, STRAIN, control, run
 
 from branchcrush.packings.contact_laws import HertzContact
 from branchcrush.samples.crushed_line import (
@@ -13,6 +12,7 @@ from branchcrush.samples.crushed_line import (
     on_the_line,
 )
 from branchcrush.samples.crushed_path import crushed_path
+from tests.unit.samples.crushed_runs import INTERVALS, SAMPLE, STRAIN, control, run
 
 
 def states_of(*slopes, sample=SAMPLE, **more):

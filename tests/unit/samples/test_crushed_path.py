@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from tests.unit.samples.crushed_runs import BROKEN, RADIUS, SAMPLE, SOLID, STRAIN, control, run
 
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.breakage import einav_breakage
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact
 from branchcrush.samples.crushed_path import PARTS, crushed_path, number_exponent
+from tests.unit.samples.crushed_runs import BROKEN, RADIUS, SAMPLE, SOLID, STRAIN, control, run
 
 
 @pytest.fixture(scope="module")
