@@ -23,6 +23,7 @@ _TAKEN = (
     "exponents.csv",
     "findings.csv",
     "findings.html",
+    "crushing.html",
     "measured.html",
     "report.html",
     "preview.txt",

@@ -5,6 +5,7 @@ import pytest
 
 from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.crushing.breakage import einav_breakage
+from branchcrush.gradings.forms import fractal
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact
 from branchcrush.samples.crushed_path import PARTS, crushed_path, number_exponent
@@ -56,7 +57,7 @@ def test_c_by_contacts_is_of_the_measured_cubes(states):
     path = states["crushing_by_contacts"].to_numpy()
     assert np.isnan(path[0]) and path[1] == 0.0
     # Half of the branches have an eighth of the cube.
-    last = random_contact_moment(SAMPLE.ultimate(from_radii([RADIUS])), 3.0) / (2 * RADIUS) ** 3
+    last = random_contact_moment(fractal(0.125e-3, RADIUS, 2.6), 3.0) / (2 * RADIUS) ** 3
     assert path[-1] == pytest.approx(0.5 * 0.875 / (1.0 - last))
 
 

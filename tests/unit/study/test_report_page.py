@@ -42,6 +42,12 @@ def test_page_links_to_that_of_measured_materials_where_there_is_one(page):
     assert '<a href="measured.html">' in page({}, measured=True)
 
 
+def test_page_links_to_that_of_grains_that_break_where_there_are_any(page):
+    assert "crushing.html" not in page({})
+    breaking = {"settings": {"breakage": {"strength": 2e7}}}
+    assert '<a href="crushing.html">' in page({"name": "rock"}, {"name": "sand", **breaking})
+
+
 def test_page_of_a_sample_without_data_says_why_and_shows_what_there_is(page):
     html = page({"fit": NO_FIT, "model": REASON, "statistics": REASON, "certificate": NOTHING})
     for part in ("No exponent", "No branches", "No curves"):
