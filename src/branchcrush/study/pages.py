@@ -78,6 +78,11 @@ class SamplePage:
         return self.fit.reason is None and self.fit.near_jamming is None
 
     @property
+    def breaks(self) -> bool:
+        """Whether its grains break, on a page of their own."""
+        return self.settings.get("breakage") is not None
+
+    @property
     def front(self) -> list[dict[str, Any]]:
         """The form of the crushing model on the front, along C."""
         return front_rows(self.forms, self.model)
