@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery tutorial quality findings mixing bench publish schema test lint docs lock clean own-environment
+.PHONY: help run preview example gallery tutorial quality findings mixing crushing bench publish schema test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -82,6 +82,11 @@ mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradi
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/mixing
 	$(BIN)/python studies/mixing/compare.py
 	$(MADE) > docs/results/mixing_made.txt
+
+crushing: $(READY) ## grains that break, a star of cases about one: docs/crushing_study.md, an hour on 2 cores
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/crushing
+	$(BIN)/python studies/crushing/compare.py
+	$(MADE) > docs/results/crushing_made.txt
 
 bench: $(READY) ## what it takes, beside other codes too: benchmarks/results/, on an idle machine
 	$(IN_ENVIRONMENT) python -m benchmarks $(PART)

@@ -35,7 +35,7 @@ def defaults(inputs):
     assert set(found) == set(declared_variables(inputs / "in.compress"))
     for name in ("data", "inputs", "output_folder", "quit_on_failure"):
         del found[name]
-    words = {"boundary", "law", "control", "neighbour_style", "collections", "last_state"}
+    words = {"boundary", "law", "control", "neighbour_style", "collections", "last_state", "append"}
     variables = {
         n: text if n in words else literal_eval(text) for n, text in found.items() if n != "targets"
     }

@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
+from branchcrush.breakage.rules import Breakage
+from branchcrush.breakage.strength import Strength
 from branchcrush.config.build import grading_of
 from branchcrush.files.grading_tables import read_radii
 from branchcrush.loading.sample import Sample
@@ -74,3 +76,28 @@ def sample_of(settings: Mapping[str, Any]) -> Sample:
         seeds=tuple(settings.get("seeds", ())),
         **{key: value for key, value in settings.items() if key in known},
     )
+
+
+def breakage_of(settings: Mapping[str, Any]) -> Breakage:
+    """Return how the grains of a sample break, from plain settings.
+
+    Parameters
+    ----------
+    settings : mapping
+        Of `config.breakage.Breakage.plain`.
+
+    Returns
+    -------
+    Breakage
+
+    Examples
+    --------
+    >>> rules = breakage_of({"strength": 2e7, "weibull_modulus": 3.0, "reference_diameter": 1e-3,
+    ...                      "size_exponent": 1.0, "smallest_diameter": 2.5e-4, "fragments": 20})
+    >>> rules.strength.weibull_modulus, rules.fragments
+    (3.0, 20)
+    """
+    of_strength = {field.name for field in fields(Strength)}
+    rest = {key: value for key, value in settings.items() if key not in of_strength}
+    strength = Strength(**{key: settings[key] for key in of_strength})
+    return Breakage(strength=strength, **rest)

@@ -15,6 +15,7 @@ from pydantic import (
     model_validator,
 )
 
+from branchcrush.config.breakage import Breakage
 from branchcrush.config.compression import DENSEST, Contact, LinearContact, Loading
 from branchcrush.config.crushing import Thermodynamics
 from branchcrush.config.evaluation import EnergySplit, Figures
@@ -80,6 +81,11 @@ class Sample(Section):
         LinearContact(law="linear"), description="Law and stiffness of the contacts."
     )
     loading: Loading = Field(description="Where the compression goes, and what is saved.")
+    breakage: Breakage | None = Field(
+        None,
+        description="Strength of the grains; with it every packing is crushed as well, beside the "
+        "one whose grains do not break.",
+    )
     seeds: Annotated[
         list[number(int, least=0, most=2**32 - 1)], Allowed(_SEEDS.allowed), _SEEDS_SCHEMA
     ] = Field(
@@ -146,6 +152,18 @@ class Sample(Section):
             )
         return loading
 
+    @field_validator("breakage")
+    @classmethod
+    def _to_a_strain(cls, breakage: Breakage | None, info: ValidationInfo) -> Breakage | None:
+        loading = info.data.get("loading")
+        if breakage is not None and loading is not None and loading.target[0] == "mean_stress":
+            raise refusal(
+                "takes a loading to a strain, since stress falls where grains break: give "
+                "loading.solid_fraction, and breakage.largest_mean_stress to end at a stress",
+                of_section=True,
+            )
+        return breakage
+
     @field_validator("seeds", mode="before")
     @classmethod
     def _count_or_list(cls, seeds: Any, info: ValidationInfo) -> list:
@@ -195,11 +213,12 @@ class Sample(Section):
             As `config.sample.sample_of` takes it.
         """
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
-        values = self.model_dump(exclude_none=True) | {"grains": self.grains}
+        values = self.model_dump(exclude_none=True) | {"grains": self.grains, "breakage": None}
         return {
             # In the order of the keys, whichever of them were given.
             **{key: values[key] for key in type(self).model_fields},
             "loading": self.loading.plain(),
+            "breakage": None if self.breakage is None else self.breakage.plain(),
             "strain_step": strain_step(self.loading.quality, refinement),
             "state_tolerance": STATE_TOLERANCES[self.loading.quality],
             "quality": self.loading.quality,

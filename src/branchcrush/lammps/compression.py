@@ -188,17 +188,31 @@ def compress(
             ranks,
         )
         tables = read_compression(scratch, variables, stopped)
-        # All of them whole before the first takes the place of an earlier run's.
-        packed = [f"{name}.gz" for name in DUMPS]
-        for name, target in zip(DUMPS, packed, strict=True) if keep_dumps != "none" else ():
-            start = last_frame(scratch / name) if keep_dumps == "last" else 0
-            compress_file(scratch / name, scratch / target, start)
-        for target in packed:
-            if keep_dumps == "none":
-                (folder / target).unlink(missing_ok=True)
-            else:
-                shutil.move(scratch / target, folder / target)
+        keep(scratch, folder, keep_dumps)
     return tables
+
+
+def keep(scratch: Path, folder: Path, keep_dumps: Literal["all", "last", "none"]) -> None:
+    """Gzip the dumps of a run into a folder, all of them, those of the last state, or none.
+
+    Parameters
+    ----------
+    scratch : Path
+        Holds them.
+    folder : Path
+        Of the results; what an earlier run left there goes.
+    keep_dumps : {"all", "last", "none"}
+    """
+    # All of them whole before the first takes the place of an earlier run's.
+    packed = [f"{name}.gz" for name in DUMPS]
+    for name, target in zip(DUMPS, packed, strict=True) if keep_dumps != "none" else ():
+        start = last_frame(scratch / name) if keep_dumps == "last" else 0
+        compress_file(scratch / name, scratch / target, start)
+    for target in packed:
+        if keep_dumps == "none":
+            (folder / target).unlink(missing_ok=True)
+        else:
+            shutil.move(scratch / target, folder / target)
 
 
 class Packing(NamedTuple):

@@ -19,7 +19,11 @@ _BUFFER = 2**20  # [bytes]
 
 
 def write_data_file(
-    path: str | PathLike[str], positions: ArrayLike, radii: ArrayLike, edge: float
+    path: str | PathLike[str],
+    positions: ArrayLike,
+    radii: ArrayLike,
+    edge: float,
+    numbers: ArrayLike | None = None,
 ) -> None:
     """Write a packing as a LAMMPS data file of atom style sphere; ids count from 1.
 
@@ -32,6 +36,8 @@ def write_data_file(
         [m]
     edge : float
         Edge of the cube [m].
+    numbers : array_like of int, shape (N,), optional
+        Of the grains, from 0; without, they are numbered in their order.
 
     Raises
     ------
@@ -52,6 +58,7 @@ def write_data_file(
         raise ValueError(
             f"one is shorter than the other: {len(diameters)} radii, {len(positions)} positions"
         )
+    ids = np.arange(len(diameters)) if numbers is None else np.asarray(numbers)
     half = float(edge) / 2.0
     lines = ["branchcrush packing, SI units", "", f"{len(diameters)} atoms", "1 atom types", ""]
     lines += [f"{-half!r} {half!r} {axis}lo {axis}hi" for axis in "xyz"]
@@ -63,10 +70,10 @@ def write_data_file(
         # packing at once would fill the memory.
         for start in range(0, len(diameters), _ROWS_AT_ONCE):
             part = slice(start, start + _ROWS_AT_ONCE)
-            rows = zip(diameters[part].tolist(), positions[part].tolist(), strict=True)
+            columns = (ids[part] + 1, diameters[part], positions[part])
+            rows = zip(*(column.tolist() for column in columns), strict=True)
             file.writelines(
-                f"{n} 1 {diameter!r} 1.0 {x!r} {y!r} {z!r}\n"
-                for n, (diameter, (x, y, z)) in enumerate(rows, start + 1)
+                f"{n} 1 {diameter!r} 1.0 {x!r} {y!r} {z!r}\n" for n, diameter, (x, y, z) in rows
             )
 
 

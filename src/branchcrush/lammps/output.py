@@ -97,7 +97,7 @@ def _state(line, particles, pairs, *, variables, first_edge, compressed):
     The grains of a state of the loading take the place of those of an earlier one.
     """
     law = CONTACT_LAWS[variables["law"]].kind(variables["stiffness"])
-    touching = state_contacts(pairs, particles["radius"], law)
+    touching = state_contacts(_by_row(pairs, particles["id"]), particles["radius"], law)
     at_wall = wall_contacts(particles, line["edge"])
     row = path_row(
         line,
@@ -114,6 +114,13 @@ def _state(line, particles, pairs, *, variables, first_edge, compressed):
         grains = {f"{name}_m": particles[name].copy() for name in ("x", "y", "z", "radius")}
         compressed.update(grains)
     return {**row, "leg": leg, "stopped": ""}, touching, at_wall
+
+
+def _by_row(pairs, ids):
+    """Return pairs with grains counted by their rows, from 1: where some broke, ids leave gaps."""
+    if ids[-1] == len(ids):
+        return pairs
+    return {**pairs, **{name: np.searchsorted(ids, pairs[name]) + 1 for name in ("id1", "id2")}}
 
 
 def _leg(state, variables):

@@ -1,4 +1,4 @@
-"""One run of a LAMMPS script: in this process, or over MPI ranks in processes of its own."""
+"""One run of LAMMPS: in this process, or over MPI ranks in processes of its own."""
 
 import contextlib
 import json
@@ -9,8 +9,9 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -77,6 +78,63 @@ def run_script(
     SimulationError
         When LAMMPS itself stops, or the script does not declare a variable.
     """
+    return run_task(script_task, {"script": str(script)}, script, variables, log, ranks)
+
+
+def script_task(lammps: Any, payload: Mapping[str, Any]) -> str:
+    """Run a script to its end in an instance of LAMMPS: a task for `run_task`.
+
+    Parameters
+    ----------
+    lammps : object
+        The instance, with the variables of the script.
+    payload : mapping
+        script: its path.
+
+    Returns
+    -------
+    str
+        As `run_script`.
+    """
+    lammps.file(payload["script"])
+    if not int(lammps.extract_variable("failed")):
+        return ""
+    edge = float(lammps.extract_variable("edge"))
+    return f"stopped at an edge of {edge:.6g} m: {lammps.extract_variable('failure')}"
+
+
+def run_task(
+    task: Callable[[Any, Mapping[str, Any]], str],
+    payload: Mapping[str, Any],
+    script: str | PathLike[str],
+    variables: Mapping[str, Any],
+    log: str | PathLike[str],
+    ranks: int = 1,
+) -> str:
+    """Run a function that leads an instance of LAMMPS, and return why it stopped before its end.
+
+    The seconds inside LAMMPS are the last line of the log.
+
+    Parameters
+    ----------
+    task : callable
+        Of a module; takes the instance and the payload, and returns why it stopped, if it did.
+    payload : mapping
+        Plain values.
+    script : path-like
+        Declares the variables.
+    variables, log, ranks
+        As for `run_script`.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    SimulationError
+        As `run_script`.
+    """
     script = Path(script)
     # LAMMPS ignores a misspelt -var silently.
     unknown = set(variables) - set(declared_variables(script))
@@ -85,11 +143,12 @@ def run_script(
     arguments = ["-nocite", "-screen", "none", "-log", str(log)]
     for name, value in variables.items():
         arguments += ["-var", name, *_words(value)]
+    name = f"{task.__module__}:{task.__name__}"
     if ranks == 1:
-        result = _run(script, arguments, ranks)
+        result = _run(name, payload, arguments, ranks)
     else:
         with scratch_folder("branchcrush-") as folder:
-            result = _run_on_ranks(script, arguments, ranks, folder, log)
+            result = _run_on_ranks(name, payload, arguments, ranks, folder, log)
     with open(log, "a", encoding="utf-8") as file:
         file.write(f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
     if result["error"]:
@@ -97,9 +156,11 @@ def run_script(
     return result["stopped"]
 
 
-def _run(script, arguments, ranks):
-    """Run a script in this process; an error of LAMMPS is part of what is returned."""
+def _run(name, payload, arguments, ranks):
+    """Run a task in this process; an error of LAMMPS is part of what is returned."""
     lammps, stopped, problem, seconds, rank = None, "", "", 0.0, 0
+    module, _, function = name.partition(":")
+    task = getattr(import_module(module), function)
     try:
         library = load_lammps()
         start = time.perf_counter()
@@ -111,10 +172,7 @@ def _run(script, arguments, ranks):
                 "it belongs to another MPI; install mpich into this Python, or use ranks: 1"
             )
         with _interruptible():
-            lammps.file(str(script))
-        if int(lammps.extract_variable("failed")):
-            edge = float(lammps.extract_variable("edge"))
-            stopped = f"stopped at an edge of {edge:.6g} m: {lammps.extract_variable('failure')}"
+            stopped = task(lammps, payload)
     except SimulationError:
         raise
     except Exception as error:  # LAMMPS raises plain exceptions
@@ -128,9 +186,9 @@ def _run(script, arguments, ranks):
     return {"rank": rank, "stopped": stopped, "error": problem, "seconds": seconds}
 
 
-def _run_on_ranks(script, arguments, ranks, folder, log):
-    """Run a script over MPI ranks; the first of them leaves the result in a file."""
-    job = [str(script), arguments, ranks, os.getpid()]
+def _run_on_ranks(name, payload, arguments, ranks, folder, log):
+    """Run a task over MPI ranks; the first of them leaves the result in a file."""
+    job = [name, payload, arguments, ranks, os.getpid()]
     (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
     launcher = _launcher()
     if launcher is None:
@@ -213,12 +271,14 @@ def main(folder: str | PathLike[str]) -> None:
         When LAMMPS itself stops on this rank.
     """
     folder = Path(folder)
-    script, arguments, ranks, job = json.loads((folder / "job.json").read_text(encoding="utf-8"))
+    name, payload, arguments, ranks, job = json.loads(
+        (folder / "job.json").read_text(encoding="utf-8")
+    )
     # From here on the launcher's end, which follows the job's, ends this rank: before, it may have
     # been missed.
     end_with_parent()
     os.kill(job, 0)
-    result = _run(Path(script), arguments, ranks)
+    result = _run(name, payload, arguments, ranks)
     if result["rank"] == 0 or result["error"]:
         own = folder / f"result-{result['rank']}.json"
         own.write_text(json.dumps(result), encoding="utf-8")

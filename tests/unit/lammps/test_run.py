@@ -107,7 +107,9 @@ def job_in(folder, text, job=None):
     job = job or os.getpid()
     (folder / "in.example").write_text(text)
     arguments = ["-screen", "none", "-log", "none"]
-    (folder / "job.json").write_text(json.dumps([str(folder / "in.example"), arguments, 1, job]))
+    payload = {"script": str(folder / "in.example")}
+    task = "branchcrush.lammps.run:script_task"
+    (folder / "job.json").write_text(json.dumps([task, payload, arguments, 1, job]))
 
 
 def test_rank_leaves_its_result_in_the_folder_of_its_job(tmp_path):
@@ -129,7 +131,7 @@ def test_rank_that_fails_leaves_its_error_and_ends(tmp_path):
 def test_job_for_more_ranks_than_there_are_is_refused(tmp_path):
     job_in(tmp_path, SCRIPT)
     job = json.loads((tmp_path / "job.json").read_text())
-    (tmp_path / "job.json").write_text(json.dumps([*job[:2], 2, job[3]]))
+    (tmp_path / "job.json").write_text(json.dumps([*job[:3], 2, job[4]]))
     with pytest.raises(SimulationError, match=r"2 ranks were asked for, and .* a world of 1"):
         main(tmp_path)
 
