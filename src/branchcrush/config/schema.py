@@ -159,9 +159,9 @@ class Sample(Section):
         loading = info.data.get("loading")
         if breakage is not None and loading is not None and loading.target[0] == "mean_stress":
             raise refusal(
-                "cannot go with loading.mean_stress, since stress falls where grains break: give "
-                "loading.solid_fraction (or edge_reduction, volume_reduction) instead, and "
-                "breakage.largest_mean_stress to end at a stress",
+                "breakage cannot go with loading.mean_stress, since stress falls where grains "
+                "break: give loading.solid_fraction (or edge_reduction, volume_reduction) instead, "
+                "and breakage.largest_mean_stress to end at a stress",
                 of_section=True,
             )
         return breakage
