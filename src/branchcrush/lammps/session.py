@@ -209,8 +209,8 @@ class Session:
         for start in range(0, change.gone.size, 1000):
             part = " ".join(map(str, change.gone[start : start + 1000] + 1))
             self.command(f"group gone id {part}")
-        # Hertz's pair style notes pairs by where grains are in memory, and at the next run would look
-        # for those that are gone.
+        # Hertz's pair style notes pairs by where grains are in memory, and at the next run would
+        # look for those that are gone.
         self.command("pair_style none")
         self.command("delete_atoms group gone compress no")
         self.command("group gone delete")

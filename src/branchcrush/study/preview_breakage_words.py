@@ -1,6 +1,6 @@
 """What breakage will make of a sample, in words for a person."""
 
-from branchcrush.study.preview_breakage import Breaking
+from branchcrush.study.preview_breakage import Breaking, three_digits
 
 
 def strength_words(found: Breaking, unit: str, metres: float) -> str:
@@ -31,24 +31,23 @@ def strength_words(found: Breaking, unit: str, metres: float) -> str:
     """
     names = ("smallest", "median by mass", "largest")
     told = [
-        f"{_pascals(strength)} of the {name} ({diameter / metres:.3g} {unit})"
+        f"{_pascals(strength)} of the {name} ({three_digits(diameter / metres)} {unit})"
         for name, (diameter, strength) in zip(names, found.strengths, strict=True)
     ]
-    rules = found.rules
+    sizes = found.rules.smallest_diameter, found.rules.finest_diameter
+    limit, finest = (f"{three_digits(size / metres)} {unit}" for size in sizes)
     return (
-        f"strength that 37 % survive {', '.join(told)}; no grain of "
-        f"{rules.smallest_diameter / metres:.3g} {unit} or finer breaks, and the finest fragment "
-        f"there can be has {rules.finest_diameter / metres:.3g} {unit} of diameter"
+        f"strength that 37 % survive {', '.join(told)}; no grain of {limit} or finer breaks, and "
+        f"the finest fragment there can be has {finest} of diameter"
     )
 
 
-def grains_words(found: Breaking, boundary: str) -> str:
+def grains_words(found: Breaking) -> str:
     """Return how many grains there will be as a sentence for a person.
 
     Parameters
     ----------
     found : Breaking
-    boundary : {"periodic", "walls"}
 
     Returns
     -------
@@ -57,14 +56,13 @@ def grains_words(found: Breaking, boundary: str) -> str:
     most = found.rules.largest_grains
     number = f"{found.grains:,}".replace(",", " ") if found.grains >= most else _about(found.grains)
     more = "at least " if found.densest is not None else ""
-    walls = "; between walls, which jam looser, there may be more" if boundary == "walls" else ""
     stress = found.rules.largest_mean_stress
     before = "" if stress is None else "; fewer where largest_mean_stress ends the run before"
     return (
         f"{more}about {number} at a solid fraction of {found.solid_fraction:.3f}, half or twice as "
         "many (an estimate: so many are in the grading that jams there by the rod map, at an "
         f"elastic strain of {100.0 * found.elastic_strain:.2g} %, if of the grains above the limit "
-        f"an equal share of every size has broken){walls}{before}"
+        f"an equal share of every size has broken){before}"
     )
 
 
