@@ -42,12 +42,14 @@ def strength_words(found: Breaking, unit: str, metres: float) -> str:
     )
 
 
-def grains_words(found: Breaking) -> str:
+def grains_words(found: Breaking, *, periodic: bool) -> str:
     """Return how many grains there will be as a sentence for a person.
 
     Parameters
     ----------
     found : Breaking
+    periodic : bool
+        Whether the cell is one without walls.
 
     Returns
     -------
@@ -56,13 +58,14 @@ def grains_words(found: Breaking) -> str:
     most = found.rules.largest_grains
     number = f"{found.grains:,}".replace(",", " ") if found.grains >= most else _about(found.grains)
     more = "at least " if found.densest is not None else ""
+    walls = "" if periodic else " less a layer at each wall"
     stress = found.rules.largest_mean_stress
     before = "" if stress is None else "; fewer where largest_mean_stress ends the run before"
     return (
         f"{more}about {number} at a solid fraction of {found.solid_fraction:.3f}, half or twice as "
-        "many (an estimate: so many are in the grading that jams there by the rod map, at an "
-        f"elastic strain of {100.0 * found.elastic_strain:.2g} %, if of the grains above the limit "
-        f"an equal share of every size has broken){before}"
+        "many (an estimate: so many are in the grading that jams there by the rod map"
+        f"{walls}, at an elastic strain of {100.0 * found.elastic_strain:.2g} %, if of the grains "
+        f"above the limit an equal share of every size has broken){before}"
     )
 
 

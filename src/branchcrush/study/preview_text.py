@@ -243,7 +243,7 @@ def _breakage(plan: Plan) -> list[str]:
         return []
     return [
         *_line("breakage", strength_words(plan.breaking, *plan.unit)),
-        *_line("grains", grains_words(plan.breaking)),
+        *_line("grains", grains_words(plan.breaking, periodic=plan.sample.periodic)),
     ]
 
 
