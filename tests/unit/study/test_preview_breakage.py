@@ -80,6 +80,14 @@ def test_as_many_between_walls_which_jam_looser(solid_fraction, measured):
     assert "rod map less a layer at each wall, at" in grains_words(found, periodic=False)
 
 
+def test_as_many_of_other_grains_by_a_simulation_that_was_held_out():
+    # Hertz, another Weibull modulus and size exponent: 1253 grains.
+    material = replace(SAND, strength=5e7, weibull_modulus=6.0, size_exponent=0.5)
+    rules = replace(RULES, strength=material, smallest_diameter=3e-4)
+    law = HertzContact.of_material(70e9, 0.2)
+    assert found_of(0.70, rules, law=law, grains=200).grains == pytest.approx(1253, rel=0.35)
+
+
 def test_force_evaluations_and_time_are_about_those_of_two_runs():
     # 316 000 and 288 000, of which 37 000 without breakage; 6.4e8 of a grain in both.
     found = found_of()
