@@ -7,6 +7,8 @@ from branchcrush.breakage.fragments import growth, packed_spheres
 
 # Diameters closer than this are one, with their mass: differences of their logarithms [-].
 _ALIKE = 5e-3
+# Of the whole mass: what is less does not break on [-].
+_NOTHING = 1e-15
 
 
 def broken_down(
@@ -45,9 +47,11 @@ def broken_down(
     """
     relative = packed_spheres(fragments)[:, 3] * growth(fragments, 0)[-1]
     here, count = np.asarray(diameter, float), np.asarray(number, float)
+    least = _NOTHING * float(count @ here**3)
     diameters, numbers = [], []
     while here.size:
         breaks = np.where(here > limit, share, 0.0) * count
+        breaks[breaks * here**3 <= least] = 0.0
         diameters.append(here)
         numbers.append(count - breaks)
         parents, count = here[breaks > 0.0], breaks[breaks > 0.0]
