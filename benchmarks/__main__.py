@@ -32,6 +32,7 @@ PARTS = (
     "tolerance",
     "breakdown",
     "minimisers",
+    "crushing",
 )
 # These need settings, so `all` leaves them out.
 NEED_SETTINGS = ("before",)

@@ -297,8 +297,9 @@ def test_lengths_scale_out(run):
         ({}, {"strength": 1e7, "criterion": "octahedral_stress", "per_round": "one"}),
         ({}, {"strength": 1e7, "growth_stages": 0, "fragments": 20}),
         ({"solid_fraction": 0.655}, {"strength": 1e7, "stepping": "events"}),
+        ({"law": GLASS, "solid_fraction": 0.69, "states": 1}, {"strength": 3e7}),
     ],
-    ids=["walls", "Hertz", "unloading", "octahedral", "at once", "events"],
+    ids=["walls", "Hertz", "unloading", "octahedral", "at once", "events", "Hertz in many rounds"],
 )
 def test_the_account_closes_in_every_case(run, case, how):
     periodic = case.get("periodic", True)

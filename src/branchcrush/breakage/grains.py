@@ -76,7 +76,7 @@ def first_grains(radii: ArrayLike, seed: int, rules: Breakage) -> Grains:
     """
     radius = np.array(radii, dtype=float)
     number = np.arange(radius.size)
-    descent = [(int(n),) for n in number]
+    descent: list[tuple[int, ...]] = [(int(n),) for n in number]
     return Grains(
         number,
         radius,
@@ -151,7 +151,9 @@ def exchange(
     )
 
 
-def _strengths(radius, descent, seed, rules):
+def _strengths(
+    radius: NDArray, descent: list[tuple[int, ...]], seed: int, rules: Breakage
+) -> NDArray:
     law = rules.strength
     factors = [weibull_factor(seed, line, law.weibull_modulus) for line in descent]
     return law.of(2.0 * radius, np.array(factors))

@@ -11,7 +11,7 @@ import numpy as np
 import branchcrush
 from branchcrush.command.check import measured_line, study_of
 from branchcrush.config.build import size_fits, unit_of
-from branchcrush.config.sample import sample_of
+from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.errors import BranchcrushError
 from branchcrush.files.tables import write_text
 from branchcrush.gradings.curves import grading_table, ultimate_grading
@@ -88,6 +88,7 @@ def study_preview(
             size=size,
             fits=size_fits(settings["grading"]),
             refused=not settings["allow_unrepresentative"],
+            breakage=breakage_of(settings["breakage"]) if settings["breakage"] else None,
         )
     page = preview_text(plans, cores, pictures, notes)
     page += "".join(f"{measured_line(*material)}\n" for material in measured.items())

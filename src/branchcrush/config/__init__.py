@@ -6,7 +6,8 @@ files and the folder. A mistake is a line with the key, its value, and what is a
 
 - `schema.Config` is the whole configuration, `schema.checked_config` makes it; `Sample.settings`
   are the plain values that rules hand to their jobs. `gradings` has a section for each form,
-  `compression` those of contacts and loading, `breakage` of grains that break, `evaluation` those of what is made of the packings.
+  `compression` those of contacts and loading, `breakage` of grains that break, `evaluation` those
+  of what is made of the packings.
 - `json_schema` writes `config.schema.json` from them, which editors read, and `reference` the
   tables of `docs/configuration.md`: `python -m branchcrush.config.json_schema`.
 - `checks.checked_study` makes it too, and refuses what no study can be made of: before any job.

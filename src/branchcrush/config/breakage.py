@@ -2,11 +2,15 @@
 
 from typing import Any, Literal
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field
 
 from branchcrush.breakage.fragments import FEWEST_FRAGMENTS, MOST_FRAGMENTS
-from branchcrush.config.fields import Section, number, refusal
+from branchcrush.config.fields import Section, number
+from branchcrush.config.grading_keys import Size
 from branchcrush.config.units import UNITS
+
+# In one packing.
+MOST_GRAINS = 10_000_000
 
 
 class Breakage(Section):
@@ -23,10 +27,10 @@ class Breakage(Section):
     unit: Literal["m", "cm", "mm", "um", "inch"] = Field(
         description="Unit of the two diameters below."
     )
-    reference_diameter: number(above=0, most=1e6) = Field(
+    reference_diameter: Size = Field(
         description="Diameter d₀ of the grains whose strength is given [unit].", examples=[1.0]
     )
-    smallest_diameter: number(above=0, most=1e6) = Field(
+    smallest_diameter: Size = Field(
         description="Comminution limit: grains no larger than this never break. It decides how "
         "many grains there will be, and belongs to the result [unit].",
         examples=[0.25],
@@ -59,20 +63,12 @@ class Breakage(Section):
         description="Whether a strain step that overloads grains is kept as it is, or taken back "
         "to the strain at which the first of them breaks.",
     )
-    largest_grains: number(int, least=2, most=10_000_000) = Field(
-        20_000, description="Before there are more grains the run ends, validly."
+    largest_grains: number(int, least=2, most=MOST_GRAINS) = Field(
+        20_000, description="Where there would be more grains the run ends, validly."
     )
     largest_mean_stress: number(above=0, most=1e15, unit="Pa") | None = Field(
         None, description="Mean stress at which the run ends, validly [Pa]."
     )
-
-    @field_validator("smallest_diameter")
-    @classmethod
-    def _a_length(cls, diameter: float, info: ValidationInfo) -> float:
-        unit = info.data.get("unit")
-        if unit is not None and diameter * UNITS[unit] > 10.0:
-            raise refusal(f"is {diameter * UNITS[unit]:g} m: see unit", unit=unit)
-        return diameter
 
     def plain(self) -> dict[str, Any]:
         """Return the section as `config.sample.breakage_of` takes it: plain values, SI units.

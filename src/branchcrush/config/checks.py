@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from branchcrush.config.breakage_checks import breakage_problems
 from branchcrush.config.build import unit_of
 from branchcrush.config.fields import one_line
 from branchcrush.config.grading_files import checked_grading
@@ -118,18 +119,22 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     grading, problems = checked_grading(section.get("grading"))
     if grading is None:
         return problems
+    grains = None
     try:
         needed = {key: section[key] for key in _NEEDED if key in section}
         sample = Sample.model_validate({**needed, "seeds": 1})
     except ValidationError:
-        return []
-    settings = sample.settings()
-    if problems := _list_problems(settings):
-        return problems
-    grains = number_of_grains(settings)
-    allowed = few_grains or sample.allow_unrepresentative
-    problems = _grain_problems(settings, grading, grains, allowed)
-    return problems + _stress_problems(sample, grading)
+        pass
+    else:
+        settings = sample.settings()
+        problems = _list_problems(settings)
+        if not problems:
+            grains = number_of_grains(settings)
+            allowed = few_grains or sample.allow_unrepresentative
+            problems = _grain_problems(settings, grading, grains, allowed)
+            problems += _stress_problems(sample, grading)
+    unit, _, size = unit_of(section["grading"])
+    return problems + breakage_problems(section.get("breakage"), grading, grains, unit, size)
 
 
 def _history_problems(config):

@@ -15,7 +15,7 @@ from pydantic import (
     model_validator,
 )
 
-from branchcrush.config.breakage import Breakage
+from branchcrush.config.breakage import MOST_GRAINS, Breakage
 from branchcrush.config.compression import DENSEST, Contact, LinearContact, Loading
 from branchcrush.config.crushing import Thermodynamics
 from branchcrush.config.evaluation import EnergySplit, Figures
@@ -40,7 +40,7 @@ from branchcrush.loading.targets import (
 )
 
 _MOST_SEEDS = 1000
-_GRAINS = NumberOrNone(least=2, most=10_000_000, whole=True)
+_GRAINS = NumberOrNone(least=2, most=MOST_GRAINS, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _SEEDS_SCHEMA = WithJsonSchema(
     number_or_list(_SEEDS, Number(least=0, most=2**32 - 1, whole=True), _MOST_SEEDS)
@@ -106,7 +106,8 @@ class Sample(Section):
     @model_validator(mode="before")
     @classmethod
     def _as_listed(cls, sample: Any) -> Any:
-        if _is_list_of_grains(sample):
+        grading = sample.get("grading") if isinstance(sample, dict) else None
+        if isinstance(grading, dict) and grading.get("form") == "radii":
             return {"sampling": "listed", "grains": None, **sample}
         return sample
 
@@ -158,8 +159,9 @@ class Sample(Section):
         loading = info.data.get("loading")
         if breakage is not None and loading is not None and loading.target[0] == "mean_stress":
             raise refusal(
-                "takes a loading to a strain, since stress falls where grains break: give "
-                "loading.solid_fraction, and breakage.largest_mean_stress to end at a stress",
+                "breakage cannot go with loading.mean_stress, since stress falls where grains "
+                "break: give loading.solid_fraction (or edge_reduction, volume_reduction) instead, "
+                "and breakage.largest_mean_stress to end at a stress",
                 of_section=True,
             )
         return breakage
@@ -224,12 +226,6 @@ class Sample(Section):
             "quality": self.loading.quality,
             "seeds": seeds,
         }
-
-
-def _is_list_of_grains(sample):
-    """Return whether a sample, checked or not, has a list of the sizes of its grains."""
-    grading = sample.get("grading") if isinstance(sample, dict) else None
-    return isinstance(grading, dict) and grading.get("form") == "radii"
 
 
 def _not_empty(samples):

@@ -12,6 +12,8 @@ from branchcrush.crushing.interpolated_elasticity import FEWEST_KNOTS, Interpola
 _LOADED = 1e-12
 # Three parameters fit any fewer states.
 FEWEST_STATES = 4
+# Solid fractions nearer to each other are those of one state, in several packings [-].
+_APART = 1e-3
 # Where the search begins, as shares of the largest phi_J: noise makes side valleys.
 _STARTS = (0.7, 0.9, 0.99)
 
@@ -64,10 +66,11 @@ def fit_elasticity(
     phi, energy = _usable_states(solid_fraction, energy_density)
     largest = energy.max(initial=0.0)
     loaded = np.unique(phi[(energy > _LOADED * largest) & (phi > (jamming or 0.0))])
-    if loaded.size < FEWEST_STATES:
+    # One state of several packings is one point of the law, however their phi differ.
+    if np.unique(np.round(loaded / _APART)).size < FEWEST_STATES:
         raise ValueError(
             f"of all packings {_states(loaded.size, 'carries', 'carry')} load, the fit needs "
-            f"{FEWEST_STATES}: compress or save more"
+            f"{FEWEST_STATES} at solid fractions {_APART:g} apart: compress or save more"
         )
     root = np.sqrt(energy / largest)
 

@@ -209,6 +209,9 @@ class Session:
         for start in range(0, change.gone.size, 1000):
             part = " ".join(map(str, change.gone[start : start + 1000] + 1))
             self.command(f"group gone id {part}")
+        # Hertz's pair style notes pairs by where grains are in memory, and at the next run would
+        # look for those that are gone.
+        self.command("pair_style none")
         self.command("delete_atoms group gone compress no")
         self.command("group gone delete")
         position = change.position
@@ -229,6 +232,7 @@ class Session:
         self._write("rmass", change.number, np.full(len(ids), 1.0))
         self.set_index(settings)
         self.include("neighbours")
+        self.include("pair")
         self.set(grains=after.number.size)
         self.update()
         self.include("mass")

@@ -27,6 +27,7 @@ from branchcrush.plotting.form_words import (
     outside,
     same_yield,
     warnings,
+    yield_beyond,
 )
 from branchcrush.plotting.style import SIZE, drawn, figure
 
@@ -131,6 +132,7 @@ def draw_crushing_yield(
             shown = set(forms["form"])
             handles = form_handles(model, shown, beyond=extrapolates(panels))
             notes = [*form_notes(model, shown), *extrapolated(forms, model), *never_yield(forms)]
+            notes += yield_beyond(forms, curves)
             of = {"of driving force": panels[0], "of yield stress": panels[1]}
             _explain(panels[0].figure, handles, [*notes, *same_yield(forms), *outside(of)])
     return panels[0].figure

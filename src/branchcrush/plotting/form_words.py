@@ -162,6 +162,39 @@ def never_yield(forms: Table) -> list[str]:
     return [f"C never grows: {_names(never)}."] if never and yields.any() else []
 
 
+def yield_beyond(forms: Table, curves: Table) -> list[str]:
+    """Return in words which forms yield, but not within the loading: their C stays 0 along it.
+
+    Parameters
+    ----------
+    forms, curves : DataFrame
+        `crushing_forms.csv` and `thermodynamics.csv`.
+
+    Returns
+    -------
+    list of str
+        A sentence, or none.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> forms = pd.DataFrame({"form": ["paper", "einav"], "yield_stress_Pa": [1e6, 1e7]})
+    >>> curves = pd.DataFrame({"form": ["paper", "einav"], "path": "crushing",
+    ...                        "crushing": [0.2, 0.0]})
+    >>> yield_beyond(forms, curves)
+    ['C stays 0 along the loading, which ends before yield: Einav, breakage.']
+    """
+    yields = np.isfinite(forms["yield_stress_Pa"]).groupby(forms["form"]).any()
+    along = curves[curves["path"] == "crushing"]
+    largest = along["crushing"].groupby(along["form"]).max()
+    beyond = [
+        name for name in FORM_LABELS if yields.get(name, False) and largest.get(name, 1.0) <= 0.0
+    ]
+    if not beyond:
+        return []
+    return [f"C stays 0 along the loading, which ends before yield: {_names(beyond)}."]
+
+
 def same_yield(forms: Table) -> list[str]:
     """Return in words which forms yield at the same stress at all C, so that one line is seen.
 

@@ -11,9 +11,9 @@
     side of each question.
 `comparison`, `summary`
     The row of a sample in `comparison.csv`, and the lines that a run ends with.
-`preview`, `preview_rods`, `preview_text`
-    `sample_plan`: sizes, who will carry load, time, memory and warnings of a sample before it runs,
-    and all of it as text. `command.preview` makes both.
+`preview`, `preview_rods`, `preview_breakage`, `preview_breakage_words`, `preview_text`
+    `sample_plan`: sizes, who will carry load, what breakage makes of it, time, memory and warnings
+    of a sample before it runs, and all of it as text. `command.preview` makes both.
 `crushing_words`
     The forms of the crushing model in words, and the one on the front along C.
 `pages`

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from branchcrush.branches.crushing_forms import TESTED_RATIO
 from branchcrush.branches.random_contacts import random_contact_moment
+from branchcrush.breakage.rules import Breakage
 from branchcrush.crushing.elastic_fits import FEWEST_STATES
 from branchcrush.crushing.paper_form import DEGENERATE, admissibility_problem
 from branchcrush.energy.split import PAPER_EXPONENT
@@ -20,6 +21,7 @@ from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.packings.geometry import UNIT_SPHERE
+from branchcrush.study.preview_breakage import Breaking, breaking
 from branchcrush.study.preview_rods import Carrying, carrying
 
 # Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
@@ -64,11 +66,13 @@ class Plan(NamedTuple):
     edge_over_diameter: float  # last edge over D99.9, as warned of [-]
     states: int
     overlap: float  # at the largest stress, over the radius; 0 of strains [-]
-    force_evaluations: float  # of one packing
+    # Of a packing whose grains do not break; what crushing it takes besides is in `breaking`.
+    force_evaluations: float
     seconds: float  # of one core, all seeds and refined ones together; nan if no trial was possible
     memory: float  # of one job [bytes]
     fits: Mapping[str, SizeFit]  # curves through a few sizes, by key
     carrying: Carrying | None  # which grains will carry load
+    breaking: Breaking | None  # what breakage will make of it; None of grains that do not break
     warnings: list[str]
 
     @property
@@ -87,6 +91,7 @@ def sample_plan(
     size: str = "diameter",
     fits: Mapping[str, SizeFit] | None = None,
     refused: bool = False,
+    breakage: Breakage | None = None,
 ) -> Plan:
     """Return what a sample will be and cost, and what is to be warned of.
 
@@ -107,6 +112,8 @@ def sample_plan(
         Curves through a few sizes [m] that the grading is made of, by key.
     refused : bool
         Whether a run will refuse grains that are too few.
+    breakage : Breakage, optional
+        How grains break, of a sample that is crushed as well.
 
     Returns
     -------
@@ -138,6 +145,10 @@ def sample_plan(
     packings = len(sample.seeds) + 2.0 * sample.refined_seeds
     mass = np.cumsum(radii**3) / np.sum(radii**3)
     standing = representativity(grading, grains, sample.end)
+    crushed = None
+    if breakage is not None:
+        crushed = breaking(sample, breakage, evaluations, seconds_per_grain, unit)
+    most = grains if crushed is None else crushed.grains
     return Plan(
         sample=sample,
         unit=unit,
@@ -157,14 +168,16 @@ def sample_plan(
         overlap=overlap,
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
-        memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2),
+        memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * most * (states + 2),
         fits=fits or {},
         carrying=carrying(sample),
+        breaking=crushed,
         warnings=[
             *_few_grains(sample, standing, (*unit, size), refused),
             *_overlaps(overlap),
             *_no_crushing(sample, ultimate),
             *_few_seeds(sample),
+            *(crushed.warnings if crushed else []),
         ],
     )
 

@@ -5,6 +5,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 
 from branchcrush.study.preview import PERCENTS, Plan
+from branchcrush.study.preview_breakage_words import grains_words, strength_words
 from branchcrush.study.preview_rods import carrying_words
 
 # Of this machine, measured on two cores [s]: Snakemake's own start, the imports of each job, and
@@ -41,7 +42,7 @@ def preview_text(
     """
     lines, longest, total = [], 0.0, 0.0
     for name, plan in plans.items():
-        seconds = compression_seconds(plan, cores)
+        crushing = 0.0 if plan.breaking is None else plan.breaking.seconds
         lines += [
             f"{name}: {plan.sample.grains} grains, {_packings(plan)}, "
             f"{'periodic cell' if plan.sample.periodic else 'six rigid walls'}",
@@ -51,14 +52,15 @@ def preview_text(
             *_line("load", carrying_words(plan.carrying, *plan.unit)),
             *_line("box", _box(plan)),
             *_line("loading", _loading(plan)),
-            *_line("time", _time(plan, seconds, cores, notes.get(name))),
+            *_breakage(plan),
+            *(line for text in _times(plan, cores, notes.get(name)) for line in _line(*text)),
             *_line("memory", f"about {plan.memory / 1e9:.1f} GB a job"),
             *_line("picture", pictures[name]),
             *(line for text in _warnings(plan, cores) for line in _line("warning", text)),
             "",
         ]
-        longest = max(longest, seconds)
-        total += plan.seconds + fixed_seconds(plan)
+        longest = max(longest, on_cores(plan, plan.seconds + crushing, cores))
+        total += plan.seconds + crushing + fixed_seconds(plan)
     # A sample of few packings may leave cores idle, and be the last to end.
     whole = START + _JOBS_OF_ALL * JOB + max(longest, total / cores)
     about = "not known" if math.isnan(total) else f"about {duration(whole)}, half or twice as long"
@@ -66,12 +68,14 @@ def preview_text(
     return "\n".join(lines) + "\n"
 
 
-def compression_seconds(plan: Plan, cores: int) -> float:
+def on_cores(plan: Plan, seconds: float, cores: int) -> float:
     """Return how long the packings of a sample take, if they have the machine to themselves.
 
     Parameters
     ----------
     plan : Plan
+    seconds : float
+        That all of them take on one core [s].
     cores : int
 
     Returns
@@ -81,7 +85,7 @@ def compression_seconds(plan: Plan, cores: int) -> float:
     """
     # Ranks of a packing keep as many cores busy, as many packings at a time as fit.
     ranks = min(plan.sample.ranks, cores)
-    return plan.seconds / min(cores // ranks * ranks, len(plan.sample.seeds) * ranks)
+    return seconds / min(cores // ranks * ranks, len(plan.sample.seeds) * ranks)
 
 
 def fixed_seconds(plan: Plan) -> float:
@@ -96,7 +100,9 @@ def fixed_seconds(plan: Plan) -> float:
     float
         On one core [s].
     """
-    return JOB * (plan.packings + _JOBS + (plan.sample.refined_seeds > 0)) + FIGURES
+    # Each packing is compressed, and crushed where its grains break.
+    runs = plan.packings * (1 if plan.breaking is None else 2)
+    return JOB * (runs + _JOBS + (plan.sample.refined_seeds > 0)) + FIGURES
 
 
 def duration(seconds: float) -> str:
@@ -231,15 +237,41 @@ def _stresses(stresses: Sequence[float]) -> str:
     return f"{', '.join(shown)} {unit}"
 
 
-def _time(plan: Plan, seconds: float, cores: int, note: str | None) -> str:
+def _breakage(plan: Plan) -> list[str]:
+    """Return how strong grains are and how many there will be, of a sample whose grains break."""
+    if plan.breaking is None:
+        return []
+    return [
+        *_line("breakage", strength_words(plan.breaking, *plan.unit)),
+        *_line("grains", grains_words(plan.breaking, periodic=plan.sample.periodic)),
+    ]
+
+
+def _times(plan: Plan, cores: int, note: str | None) -> list[tuple[str, str]]:
+    """Return how long the loading takes, and crushing besides, each behind its label."""
     if note is not None:
-        return f"not known, since no trial could be made: {note}"
-    evaluations = f"{plan.force_evaluations:,.0f}".replace(",", " ")
+        return [("time", f"not known, since no trial could be made: {note}")]
     fixed = fixed_seconds(plan) - FIGURES
+    times = [
+        (
+            "time",
+            f"compression {_lasting(plan, plan.seconds, cores, plan.force_evaluations)}; to start "
+            f"jobs {duration(fixed / cores)}, figures {duration(FIGURES)}",
+        )
+    ]
+    if (found := plan.breaking) is not None:
+        lasting = _lasting(plan, found.seconds, cores, found.force_evaluations)
+        basis = "by the number of grains above, and what a round of breakage took in a few runs"
+        times.append(("", f"crushing {lasting}: an estimate {basis}"))
+    return times
+
+
+def _lasting(plan: Plan, seconds: float, cores: int, evaluations: float) -> str:
+    """Return how long all packings of a sample take in one kind of run."""
+    told = f"{evaluations:,.0f}".replace(",", " ")
     return (
-        f"compression about {duration(seconds)} on {cores} core{'s' * (cores != 1)}, half or twice "
-        f"as long ({evaluations} force evaluations a packing); to start jobs "
-        f"{duration(fixed / cores)}, figures {duration(FIGURES)}"
+        f"about {duration(on_cores(plan, seconds, cores))} on {cores} core{'s' * (cores != 1)}, "
+        f"half or twice as long ({told} force evaluations a packing)"
     )
 
 

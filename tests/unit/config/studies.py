@@ -33,8 +33,16 @@ OTHER = {
     "contact": {"law": "hertz", "young_modulus": 7e10, "poisson_ratio": 0.2},
     "loading": {"mean_stress": {"from": 1e5, "to": 1e6, "states": 3}},
 }
+# Of the sample above.
+BREAKAGE = {
+    "strength": 2e7,
+    "weibull_modulus": 2.0,
+    "unit": "mm",
+    "reference_diameter": 1.0,
+    "smallest_diameter": 0.3,
+}
 STUDY = {
-    "samples": {"one": SAMPLE, "other": OTHER},
+    "samples": {"one": {**SAMPLE, "breakage": BREAKAGE}, "other": OTHER},
     "energy_split": {"bins": 20, "confidence": 0.95, "resamples": 2000},
     "thermodynamics": {"ultimate_alpha": 2.6, "critical_energy": 2e5, "hardening_exponent": 2.0},
     "figures": {"dpi": 300},

@@ -73,6 +73,18 @@ def test_the_fit_needs_four_loaded_states():
         fit_elasticity([0.60, 0.70], [0.0, 1.0])
 
 
+def test_one_state_of_many_packings_is_one_point_of_the_law():
+    phi = np.concatenate([[0.60], 0.70 + 1e-4 * np.arange(8)])
+    energy = 50.0 * phi / 0.64 * np.maximum(1.0 - 0.64 / phi, 0.0) ** 2
+    with pytest.raises(
+        ValueError, match=r"8 states carry load, .* 4 at solid fractions 0\.001 apart"
+    ):
+        fit_elasticity(phi, energy)
+    phi = np.concatenate([phi, [0.71, 0.72, 0.73]])
+    energy = 50.0 * phi / 0.64 * np.maximum(1.0 - 0.64 / phi, 0.0) ** 2
+    assert fit_elasticity(phi, energy)[1] == pytest.approx(0.64, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     "energy",
     [
