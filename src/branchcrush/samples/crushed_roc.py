@@ -1,6 +1,6 @@
 """Which grains break next: how well what a state shows of a grain foretells it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -8,7 +8,7 @@ import pandas as pd
 from branchcrush.energy.grain_loads import PREDICTED, grain_loads, predicted_loads
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.packings.network import state_network
-from branchcrush.statistics.intervals import Resampling, pooled_interval
+from branchcrush.statistics.intervals import Resampling, share_interval
 from branchcrush.statistics.roc import Places, places, roc_curve
 
 # What needs the strength of each grain, which an experiment does not know.
@@ -110,14 +110,12 @@ def foretellers(
             found = [_places(seed, name) for seed in of_whom]
             number = sum(one.above.size for one in found)
             sums = np.array([[one.below.sum(), one.above.size] for one in found])
-            with np.errstate(invalid="ignore", divide="ignore"):
-                area = pooled_interval(
-                    sums,
-                    lambda x: x[:, 0] / x[:, 1],
-                    confidence=confidence,
-                    resamples=resamples,
-                    rng=Resampling.PREDICTORS.rng(),
-                )
+            area = share_interval(
+                sums,
+                confidence=confidence,
+                resamples=resamples,
+                rng=Resampling.CRUSHED_GRAINS.rng(),
+            )
             kind = {"among": among, "foreteller": name}
             rows.append(
                 {
@@ -154,21 +152,3 @@ def _direction(low: float, high: float) -> str:
     if low > 0.5:
         return "more"
     return "less" if high < 0.5 else "undecided"
-
-
-def numbers_of(areas: pd.DataFrame, among: str) -> Mapping[str, Mapping]:
-    """Return the rows of the areas among some grains, by the foreteller's name.
-
-    Parameters
-    ----------
-    areas : DataFrame
-        From `foretellers`.
-    among : str
-        One of `AMONG`.
-
-    Returns
-    -------
-    mapping of str to mapping
-    """
-    kept = areas[areas["among"] == among]
-    return {row["foreteller"]: row for row in kept.to_dict("records")}

@@ -1,12 +1,14 @@
 """Which grains survive: breakages per grain and state by contacts and radius, and first grains left."""
 
+import warnings
 from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 from scipy.stats import CensoredData, ecdf
 
-from branchcrush.statistics.intervals import Resampling, pooled_interval
+from branchcrush.statistics.intervals import Resampling, share_interval
+import itertools
 
 # Classes of contacts begin at these numbers; fewer than four are a rattler's.
 CONTACT_CLASSES = np.array([0, 4, 6, 8, 12, 20])
@@ -57,14 +59,12 @@ def hazards(
         kept = [of(seed) for seed in seeds]
         for by, edges in (("contacts", np.append(CONTACT_CLASSES, np.inf)), ("radius", doublings)):
             sums = np.stack([_counted(seed, by, edges, limit) for seed in kept])
-            with np.errstate(invalid="ignore", divide="ignore"):
-                hazard = pooled_interval(
-                    sums,
-                    lambda x: x[:, 0] / x[:, 1],
-                    confidence=confidence,
-                    resamples=resamples,
-                    rng=Resampling.PREDICTORS.rng(),
-                )
+            hazard = share_interval(
+                sums,
+                confidence=confidence,
+                resamples=resamples,
+                rng=Resampling.CRUSHED_GRAINS.rng(),
+            )
             broken, at_risk = sums.sum(axis=0).astype(int)
             rows += [
                 {
@@ -108,31 +108,37 @@ def _counted(seed, by, edges, limit):
     )
 
 
-def first_grains(grains: pd.DataFrame, contacts_before: pd.Series) -> pd.DataFrame:
+def first_grains(
+    grains: pd.DataFrame, contacts: pd.Series, solid_fraction: pd.Series
+) -> pd.DataFrame:
     """Return every first grain of a seed, its contacts when breaking begins, and how long it lasts.
 
     Parameters
     ----------
     grains : DataFrame
         `grains.parquet` of a seed.
-    contacts_before : Series
-        Number of contacts by the grain's number, in the state that `survivals` is told.
+    contacts : Series
+        Number of contacts by the grain's number, of those that are left when breaking begins.
+    solid_fraction : Series
+        phi by the number of the state.
 
     Returns
     -------
     DataFrame
-        grain, radius_m, contacts, last_state, survived.
+        grain, radius_m, contacts (nan where the grain was gone), solid_fraction (of the state it
+        broke on the way to, or of the last), survived.
     """
+    last = grains["state"].max()
     first = grains[grains["generation"] == 0]
-    of = first.groupby("grain").agg(radius_m=("radius_m", "first"), last_state=("state", "max"))
-    of["survived"] = of["last_state"] == grains["state"].max()
-    of["contacts"] = contacts_before.reindex(of.index).fillna(0.0)
-    return of.reset_index()
+    of = first.groupby("grain").agg(radius_m=("radius_m", "first"), until=("state", "max"))
+    of["survived"] = of["until"] == last
+    of["contacts"] = contacts.reindex(of.index)
+    gone = np.minimum(of["until"] + 1, last)
+    of["solid_fraction"] = solid_fraction.loc[gone].to_numpy(dtype=float)
+    return of.drop(columns="until").reset_index()
 
 
-def survivals(
-    seeds: Sequence[pd.DataFrame], *, confidence: float, resamples: int
-) -> pd.DataFrame:
+def survivals(seeds: Sequence[pd.DataFrame], *, confidence: float, resamples: int) -> pd.DataFrame:
     """Return the share of the first grains that is left after the path, by radius and contacts.
 
     Parameters
@@ -148,27 +154,23 @@ def survivals(
         by ("radius", thirds of the first grains; "contacts", `CONTACT_CLASSES`), low, high (of the
         radius [m], or of contacts), first_grains, survivors, share, share_low, share_high.
     """
-    radii = np.concatenate([seed["radius_m"].to_numpy() for seed in seeds])
-    thirds = np.quantile(radii, np.linspace(0.0, 1.0, 4))
-    thirds[-1] = np.nextafter(thirds[-1], np.inf)
+    thirds = _thirds(pd.concat([seed["radius_m"] for seed in seeds]))
     rows = []
     for by, column, edges in (
-        ("radius", "radius_m", np.unique(thirds)),
+        ("radius", "radius_m", thirds),
         ("contacts", "contacts", np.append(CONTACT_CLASSES, np.inf)),
     ):
-        for low, high in zip(edges[:-1], edges[1:], strict=True):
+        for low, high in itertools.pairwise(edges):
             of = [seed.loc[seed[column].between(low, high, "left"), "survived"] for seed in seeds]
             sums = np.array([[one.sum(), one.size] for one in of], dtype=float)
             if not sums[:, 1].any():
                 continue
-            with np.errstate(invalid="ignore", divide="ignore"):
-                share = pooled_interval(
-                    sums,
-                    lambda x: x[:, 0] / x[:, 1],
-                    confidence=confidence,
-                    resamples=resamples,
-                    rng=Resampling.PREDICTORS.rng(),
-                )
+            share = share_interval(
+                sums,
+                confidence=confidence,
+                resamples=resamples,
+                rng=Resampling.CRUSHED_GRAINS.rng(),
+            )
             left, number = sums.sum(axis=0).astype(int)
             rows.append(
                 {
@@ -183,25 +185,56 @@ def survivals(
     return pd.DataFrame(rows)
 
 
-def survival_curve(last_phi: np.ndarray, survived: np.ndarray) -> pd.DataFrame:
-    """Return the share of grains that is left at each solid fraction, by Kaplan and Meier.
+def survival_curves(seeds: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """Return the share of the first grains left at each solid fraction, by thirds of their radius.
+
+    Kaplan and Meier's estimate of all seeds together; grains that are left are censored. Its limits
+    take grains for independent, which those of one packing are not: they are the least.
 
     Parameters
     ----------
-    last_phi : ndarray, shape (N,)
-        Solid fraction of the state that a grain broke on the way to, or of its last state [-].
-    survived : ndarray of bool, shape (N,)
-        Whether it is left: then it is censored.
+    seeds : list of DataFrame
+        From `first_grains`, of each seed.
 
     Returns
     -------
     DataFrame
-        solid_fraction, left.
+        radius_low_m, radius_high_m, solid_fraction, left, left_low, left_high (95 %).
 
     References
     ----------
-    Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457.
+    Kaplan and Meier (1958), J. Am. Stat. Assoc. 53, 457; Greenwood (1926).
     """
-    data = CensoredData(uncensored=last_phi[~survived], right=last_phi[survived])
-    curve = ecdf(data).sf
-    return pd.DataFrame({"solid_fraction": curve.quantiles, "left": curve.probabilities})
+    every = pd.concat(seeds, ignore_index=True)
+    parts = []
+    edges = _thirds(every["radius_m"])
+    for low, high in itertools.pairwise(edges):
+        of = every[every["radius_m"].between(low, high, "left")]
+        if not len(of):
+            continue
+        gone = of["survived"].to_numpy(dtype=bool)
+        phi = of["solid_fraction"].to_numpy()
+        curve = ecdf(CensoredData(uncensored=phi[~gone], right=phi[gone])).sf
+        with np.errstate(invalid="ignore", divide="ignore"), warnings.catch_warnings():
+            # Where all or none are left, scipy warns that there are no limits; they are nan.
+            warnings.simplefilter("ignore", RuntimeWarning)
+            limits = curve.confidence_interval(method="log-log")
+        parts.append(
+            pd.DataFrame(
+                {
+                    "radius_low_m": low,
+                    "radius_high_m": high,
+                    "solid_fraction": curve.quantiles,
+                    "left": curve.probabilities,
+                    "left_low": limits.low.probabilities,
+                    "left_high": limits.high.probabilities,
+                }
+            )
+        )
+    return pd.concat(parts, ignore_index=True)
+
+
+def _thirds(radii: pd.Series) -> np.ndarray:
+    edges = np.quantile(radii, np.linspace(0.0, 1.0, 4))
+    edges[-1] = np.nextafter(edges[-1], np.inf)
+    return np.unique(edges)

@@ -1,0 +1,43 @@
+# Who breaks, who survives, and the energy split while grains break: all seeds of a sample, beside
+# the packings whose grains do not.
+
+
+def of_all_crushed(file):
+    """Return an input function for a file of the crushing of every seed of the sample."""
+    return lambda wildcards: of_seeds(
+        file, f"{wildcards.sample}/crushing", settings_of(wildcards)["seeds"]
+    )
+
+
+rule crushed_grains:
+    input:
+        crushed_paths=of_all_crushed("path.csv"),
+        grains=of_all_crushed("grains.parquet"),
+        crushed_contacts=of_all_crushed("contacts.parquet"),
+        crushed_walls=of_all_crushed("wall_contacts.parquet"),
+        breakages=of_all_crushed("breakages.parquet"),
+        packings=of_all_seeds("packing.npz"),
+        paths=of_all_seeds("path.csv"),
+        contacts=of_all_seeds("contacts.parquet"),
+        walls=of_all_seeds("wall_contacts.parquet"),
+    output:
+        areas=table("crushed_predictors", "how well a state foretells which grains break"),
+        curves=table("crushed_roc", "ROC curves of what foretells breaking"),
+        hazards=table("crushed_hazards", "breakages per grain and state, by contacts and radius"),
+        survivors=table("crushed_survivors", "first grains left, by radius and by contacts"),
+        survival=table("crushed_survival", "first grains left along the path"),
+        exponents=table("crushed_exponents", "energy split along the crushing, beside the control"),
+        loads=table("crushed_loads", "contacts, rattlers and forces by size at the end"),
+        overshoots=table("crushed_overshoots", "stress at breaking over the strength"),
+        summary="results/{sample}/crushed_grains.json",
+        record="results/{sample}/made/crushed_grains.json",
+    log:
+        "logs/{sample}/crushed_grains.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushed_grains"),
+        sample=section("breakage", "seeds"),
+        intervals=INTERVALS,
+    script:
+        "../scripts/crushed_grains.py"
