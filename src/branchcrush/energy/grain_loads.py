@@ -1,4 +1,4 @@
-"""What each grain bears in one state: its contacts, forces and energies, and what predictors say."""
+"""What each grain bears in one state: contacts, forces and energies, and what predictors say."""
 
 import numpy as np
 from numpy.typing import NDArray

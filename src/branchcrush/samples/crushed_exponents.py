@@ -1,5 +1,6 @@
 """The energy split along the crushing, who carries load by size, and strengths at breaking."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -11,7 +12,6 @@ from branchcrush.errors import FitError
 from branchcrush.packings.network import Network, state_network
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
 from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
-import itertools
 
 _UNKNOWN = Interval(np.nan, np.nan, np.nan)
 # Fewer branches than this in a state of all seeds bear no exponent.

@@ -98,11 +98,11 @@ def _split(table: pd.DataFrame) -> list[str]:
     if not len(known):
         return ["No state of the crushing bears an exponent of the energy split."]
     last = known.iloc[-1]
+    own, control = (Interval.read(last, name) for name in ("exponent", "control_exponent"))
     words = (
         f"At φ = {last['solid_fraction']:.3f}, with {100.0 * last['broken_mass_fraction']:.0f} % "
-        f"of the mass in fragments, the exponent n is {interval_text(*Interval.read(last, 'exponent'))}"
+        f"of the mass in fragments, the exponent n is {interval_text(*own)}"
     )
-    own, control = (Interval.read(last, name) for name in ("exponent", "control_exponent"))
     if not np.isfinite(control.estimate):
         return [words + "; the packing that does not break has no state of this solid fraction."]
     apart = own.low > control.high or own.high < control.low
@@ -119,5 +119,5 @@ def _strengths(table: pd.DataFrame) -> list[str]:
     return [
         f"Grains broke at stresses {100.0 * row['median_overshoot']:.0f} % above their strength "
         f"(median; 90 % of them within {100.0 * row['overshoot_90']:.0f} %), "
-        f"{row['below']} below it: strain steps and avalanches overshoot."
+        f"{int(row['below'])} below it: strain steps and avalanches overshoot."
     ]

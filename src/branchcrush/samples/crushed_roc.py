@@ -81,7 +81,7 @@ def grains_at_risk(
 def foretellers(
     seeds: Sequence[pd.DataFrame], *, confidence: float, resamples: int
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return the area under the ROC curve of everything that could foretell breaking, and the curve.
+    """Return ROC curves of everything that could foretell breaking, and the areas under them.
 
     A grain that breaks is compared with the grains of its own state that do not, so the load of
     the packing as a whole foretells nothing; every grain that breaks counts alike.

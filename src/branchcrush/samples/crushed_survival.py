@@ -1,5 +1,6 @@
-"""Which grains survive: breakages per grain and state by contacts and radius, and first grains left."""
+"""Which grains survive: breakages by contacts and radius, and the first grains that are left."""
 
+import itertools
 import warnings
 from collections.abc import Sequence
 
@@ -8,7 +9,6 @@ import pandas as pd
 from scipy.stats import CensoredData, ecdf
 
 from branchcrush.statistics.intervals import Resampling, share_interval
-import itertools
 
 # Classes of contacts begin at these numbers; fewer than four are a rattler's.
 CONTACT_CLASSES = np.array([0, 4, 6, 8, 12, 20])
@@ -213,7 +213,8 @@ def survival_curves(seeds: Sequence[pd.DataFrame]) -> pd.DataFrame:
         if not len(of):
             continue
         gone = of["survived"].to_numpy(dtype=bool)
-        phi = of["solid_fraction"].to_numpy()
+        # Seeds reach equal solid fractions up to rounding.
+        phi = of["solid_fraction"].round(9).to_numpy()
         curve = ecdf(CensoredData(uncensored=phi[~gone], right=phi[gone])).sf
         with np.errstate(invalid="ignore", divide="ignore"), warnings.catch_warnings():
             # Where all or none are left, scipy warns that there are no limits; they are nan.
