@@ -47,7 +47,7 @@ def hazards(
     largest = max((seed["radius"].max() for seed in seeds if len(seed)), default=np.nan)
     if not np.isfinite(largest):
         return pd.DataFrame(columns=["group", "by", "low", "high", "at_risk", "breakages"])
-    doublings = 2.0 ** np.arange(max(1, int(np.ceil(np.log2(2.0 * largest / limit)))) + 1)
+    doublings = 2.0 ** np.arange(int(np.floor(np.log2(2.0 * largest / limit))) + 2)
     members = {
         "all": lambda seed: seed,
         "first": lambda seed: seed[seed["generation"] == 0],
