@@ -41,3 +41,28 @@ rule crushed_grains:
         intervals=INTERVALS,
     script:
         "../scripts/crushed_grains.py"
+
+
+rule crushed_grains_figures:
+    input:
+        areas="results/{sample}/crushed_predictors.csv",
+        curves="results/{sample}/crushed_roc.csv",
+        hazards="results/{sample}/crushed_hazards.csv",
+        exponents="results/{sample}/crushed_exponents.csv",
+        loads="results/{sample}/crushed_loads.csv",
+    output:
+        who=figure("who_breaks"),
+        split=figure("split_of_crushed"),
+        record="results/{sample}/made/crushed_grains_figures.json",
+    log:
+        "logs/{sample}/crushed_grains_figures.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushed_grains_figures"),
+        dpi=SETTINGS.figures.dpi,
+        # Of the captions.
+        limit=lambda wildcards: settings_of(wildcards)["breakage"]["smallest_diameter"] * 1e3,
+        seeds=lambda wildcards: len(settings_of(wildcards)["seeds"]),
+    script:
+        "../scripts/crushed_grains_figures.py"

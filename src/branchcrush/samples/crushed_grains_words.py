@@ -44,6 +44,7 @@ def grains_sentences(summary: Mapping[str, Any], results: Mapping[str, pd.DataFr
     ]
     sentences += _foretold(results["areas"])
     sentences += _hazard(results["hazards"])
+    sentences += _left(results["survivors"])
     sentences += _split(results["exponents"])
     sentences += _strengths(results["overshoots"])
     return sentences
@@ -86,6 +87,19 @@ def _hazard(table: pd.DataFrame) -> list[str]:
     return [
         "Of 100 large grains (radius above half of the largest) break from one state to the next "
         f"{_percent(a)} with 4 to 5 contacts, {_percent(b)} with 12 to 19: {verdict}."
+    ]
+
+
+def _left(table: pd.DataFrame) -> list[str]:
+    of = table[table["by"] == "radius"]
+    if len(of) < 2:
+        return ["First grains are of one radius: whether large ones survive is not told."]
+    small, large = (Interval.read(of.iloc[place], "share") for place in (0, -1))
+    apart = small.high < large.low or large.high < small.low
+    return [
+        f"Of 100 first grains are left {_percent(small)} of the smallest third and "
+        f"{_percent(large)} of the largest: "
+        + ("they differ." if apart else "whether they differ is not decided.")
     ]
 
 
