@@ -161,8 +161,8 @@ def plot_loads(loads: Table, ax: Axes | None = None) -> Axes:
     for kind, color, marker in (("first grains", MEASURED, "s"), ("fragments", MODEL, "o")):
         of = loads[loads["kind"] == kind]
         force = of["largest_force_N"]
-        low = np.maximum(of["largest_force_N_low"], force / 10.0)  # none below 0 on this axis
-        error = np.nan_to_num(np.array([force - low, of["largest_force_N_high"] - force]))
+        low = np.maximum(of["largest_force_low_N"], force / 10.0)  # none below 0 on this axis
+        error = np.nan_to_num(np.array([force - low, of["largest_force_high_N"] - force]))
         middle = np.sqrt(of["low"] * of["high"])
         ax.errorbar(middle, force, yerr=error, fmt=marker + "-", color=color, label=kind)
     ax.set_xscale("log", base=2)
@@ -192,11 +192,11 @@ def draw_who_breaks(
     -------
     Figure
     """
-    with figure(path, dpi, *grid(1, 3)) as (left, middle, right):
-        plot_roc(areas, curves, ax=left)
+    with figure(path, dpi, *grid(3, 1)) as (top, middle, bottom):
+        plot_roc(areas, curves, ax=top)
         plot_hazard(hazards, "contacts", ax=middle)
-        plot_hazard(hazards, "radius", ax=right)
-    return left.figure
+        plot_hazard(hazards, "radius", ax=bottom)
+    return top.figure
 
 
 def draw_split_of_crushed(

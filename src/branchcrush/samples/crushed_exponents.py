@@ -199,7 +199,9 @@ def load_by_radius(
                 "grains": number[k],
                 **of_all.part((0, k)).named("rattlers"),
                 **of_all.part((1, k)).named("contacts"),
-                **of_all.part((2, k)).named("largest_force_N"),
+                "largest_force_N": of_all.estimate[2, k],
+                "largest_force_low_N": of_all.low[2, k],
+                "largest_force_high_N": of_all.high[2, k],
             }
             for k in np.flatnonzero(number)
         ]
