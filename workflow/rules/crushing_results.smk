@@ -20,13 +20,6 @@ CRUSHING_FIGURES = [
 CRUSHING_PAGE = str(ROOT / "workflow/report/crushing.html.jinja")
 
 
-def of_crushed_seeds(file):
-    """Return an input function for a file of the crushing of every seed of the sample."""
-    return lambda wildcards: of_seeds(
-        file, f"{wildcards.sample}/crushing", settings_of(wildcards)["seeds"]
-    )
-
-
 def of_halved_seeds(file):
     """Return an input function for a file of every seed that is crushed with half the steps."""
 
@@ -101,9 +94,10 @@ rule crushing_page:
     input:
         **{
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=BREAKING)
-            for name in CRUSHING_FIGURES
+            for name in CRUSHING_FIGURES + GRAINS_FIGURES
         },
         summaries=expand("results/{sample}/crushing.json", sample=BREAKING),
+        grains=expand("results/{sample}/crushed_grains.json", sample=BREAKING),
         beside=expand("results/{sample}/crushing_beside_forms.csv", sample=BREAKING),
         means=expand("results/{sample}/crushing_means.csv", sample=BREAKING),
     output:
@@ -117,6 +111,6 @@ rule crushing_page:
         code=code("crushing_page", CRUSHING_PAGE),
         template=CRUSHING_PAGE,
         samples=BREAKING,
-        figures=CRUSHING_FIGURES,
+        figures=CRUSHING_FIGURES + GRAINS_FIGURES,
     script:
         "../scripts/crushing_page.py"

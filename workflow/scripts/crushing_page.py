@@ -15,6 +15,7 @@ with recorded_job(snakemake):
             {figure: files[figure][k] for figure in params.figures},
             read_table(files.means[k]),
             read_table(files.beside[k]),
+            read_json(files.grains[k])["sentences"],
         )
         for k, name in enumerate(params.samples)
     ]

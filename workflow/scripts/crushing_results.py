@@ -7,7 +7,7 @@ from branchcrush.files.tables import provenance, read_json, read_table, write_js
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.records import recorded_job
 from branchcrush.samples.crushed import crushed_results, read_crushing
-from branchcrush.samples.crushed_grains import Crushable
+from branchcrush.samples.crushed_sizes import Crushable
 
 with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params

@@ -31,7 +31,14 @@ _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate", "crushing")
 # Of samples whose grains break; the first of the seeds that are run again, too.
-_OF_BREAKING = ("crushing", "crushing_results", "crushing_figures", "crushing_page")
+_OF_BREAKING = (
+    "crushing",
+    "crushing_results",
+    "crushing_figures",
+    "crushed_grains",
+    "crushed_grains_figures",
+    "crushing_page",
+)
 # Of materials that a laboratory measured; the second of those with a compression curve.
 _OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
 

@@ -10,10 +10,10 @@ from branchcrush.errors import FitError
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.samples.crushed_forms import beside_forms, no_forms, pooled_law
 from branchcrush.samples.crushed_gradings import crushed_gradings, stages_of
-from branchcrush.samples.crushed_grains import Crushable
 from branchcrush.samples.crushed_line import compression_line
 from branchcrush.samples.crushed_means import crushed_means, per_volume
 from branchcrush.samples.crushed_path import control_law, crushed_path
+from branchcrush.samples.crushed_sizes import Crushable
 from branchcrush.samples.crushed_words import crushing_sentences, end_of, energy_summary
 from branchcrush.samples.measured import EXPONENT
 

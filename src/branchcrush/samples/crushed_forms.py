@@ -15,7 +15,7 @@ from branchcrush.crushing.forms import ModelForm
 from branchcrush.crushing.resistance import CriticalEnergy
 from branchcrush.errors import FitError
 from branchcrush.gradings.distribution import Grading
-from branchcrush.samples.crushed_grains import Crushable
+from branchcrush.samples.crushed_sizes import Crushable
 
 _TOLD = ("crushing", "stress_Pa", "dissipated_J_per_m3")
 _COLUMNS = ("form", "state", "solid_fraction", "volumetric_strain", *_TOLD)

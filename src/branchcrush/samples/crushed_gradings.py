@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.gradings.mixtures import from_radii
-from branchcrush.samples.crushed_grains import Crushable
 from branchcrush.samples.crushed_line import mean_interval
+from branchcrush.samples.crushed_sizes import Crushable
 
 _STAGES, _SIZES = 5, 120
 

@@ -1,122 +1,127 @@
-"""Rule crushing_results: what the grains of a state are like beside the first ones."""
+"""Rule crushed_grains: who breaks, who survives, and how energy is split while grains break."""
 
-from collections.abc import Mapping
-from typing import NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+import pandas as pd
 
-from branchcrush.branches.mixing import mixing_path
-from branchcrush.branches.random_contacts import random_contact_moment
-from branchcrush.crushing.breakage import (
-    SILT,
-    crushing_parameter,
-    einav_breakage,
-    hardin_breakage,
+from branchcrush.packings.network import Network, state_network
+from branchcrush.samples.crushed_exponents import (
+    exponents_beside_control,
+    load_by_radius,
+    networks_of,
+    overshoots,
 )
-from branchcrush.errors import FitError
-from branchcrush.gradings.distribution import Grading
-from branchcrush.gradings.forms import fractal
-from branchcrush.gradings.mixtures import from_radii
-from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.samples.measured import EXPONENT
-from branchcrush.statistics.power_law import power_law_fit
+from branchcrush.samples.crushed_grains_words import grains_sentences
+from branchcrush.samples.crushed_roc import foretellers, grains_at_risk
+from branchcrush.samples.crushed_survival import (
+    first_grains,
+    from_first_breakage,
+    hazards,
+    survival_curves,
+    survivals,
+)
 
-# Sizes over the largest first one at which percent finer is told, by the names of their columns.
-SIZES: Mapping[str, float] = {"eighth": 0.125, "quarter": 0.25, "half": 0.5, "three_quarters": 0.75}
-# Diameters at which grains are counted for alpha, and how wide their range must be.
-_COUNTED, _RANGE = 16, 2.0
-_BOTH_ENDS = np.array([0.0, 1.0])
-
-
-class Crushable(NamedTuple):
-    """What is asked of a sample whose grains break, as far as its results need it."""
-
-    limit: float  # comminution limit: diameter of the finest grains that break [m]
-    size_exponent: float  # b, strength goes as d^-b [-]
-    ultimate_alpha: float  # of the ultimate grading, from the largest first grain to the limit [-]
-    law: LinearContact | HertzContact
-
-    def ultimate(self, first: Grading) -> Grading | None:
-        """Return the fractal grading down to the limit, or None where no first grain is larger."""
-        largest = first.support()[1]
-        if largest <= self.limit / 2.0:
-            return None
-        return fractal(self.limit / 2.0, largest, self.ultimate_alpha)
+# Of the crushing of a seed: path, grains, contacts, contacts with walls, breakages.
+Run = tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame, pd.DataFrame, pd.DataFrame]
+# Of its control: path, and what `packings.network.state_networks` takes.
+Control = tuple[pd.DataFrame, Any, pd.DataFrame, pd.DataFrame]
 
 
-def grading_row(first: NDArray, now: NDArray, sample: Crushable) -> dict[str, float]:
-    """Return what the grains of a state are like beside the first ones.
+class CrushedGrains(NamedTuple):
+    """The result files of the grains of a crushing."""
 
-    Parameters
-    ----------
-    first, now : ndarray, shape (N,)
-        Radii [m].
-    sample : Crushable
-
-    Returns
-    -------
-    dict
-        Breakage by every measure, phi_J, S and d_Q over its first value by rods, alpha, percent
-        finer [-, %].
-    """
-    before, after = from_radii(first), from_radii(now)
-    ultimate = sample.ultimate(before)
-    largest = before.support()[1]
-    ends = mixing_path(before, after, sample.law, crushing=_BOTH_ENDS)
-    way = (before, after, sample.ultimate_alpha, largest)
-    row = {
-        "einav_breakage": np.nan,
-        "einav_breakage_down_to_0": einav_breakage(*way),
-        "crushing_by_random_contacts": np.nan,
-        "hardin_breakage": hardin_breakage(before, after) if largest > SILT else np.nan,
-        "number_exponent": number_exponent(2.0 * now, sample.limit, 2.0 * float(first.min())),
-        "jamming_before": float(ends.solid_fraction[0]),
-        "jamming_by_rods": float(ends.solid_fraction[1]),
-        "stiffness_ratio": float(ends.modulus[1] / ends.modulus[0]),
-        "contact_diameter_ratio": float(ends.contact_diameter[1] / ends.contact_diameter[0]),
-    }
-    if ultimate is not None:
-        row["einav_breakage"] = einav_breakage(*way, sample.limit / 2.0)
-        moments = [random_contact_moment(each, EXPONENT) for each in (before, after, ultimate)]
-        row["crushing_by_random_contacts"] = crushing_parameter(*moments)
-    finer = 100.0 * after.mass_cdf(largest * np.array(list(SIZES.values())))
-    return row | {
-        f"percent_finer_{name}": float(share) for name, share in zip(SIZES, finer, strict=True)
-    }
+    areas: pd.DataFrame  # crushed_predictors.csv
+    curves: pd.DataFrame  # crushed_roc.csv
+    hazards: pd.DataFrame  # crushed_hazards.csv
+    survivors: pd.DataFrame  # crushed_survivors.csv
+    survival: pd.DataFrame  # crushed_survival.csv
+    exponents: pd.DataFrame  # crushed_exponents.csv
+    loads: pd.DataFrame  # crushed_loads.csv
+    overshoots: pd.DataFrame  # crushed_overshoots.csv
+    summary: dict  # crushed_grains.json
 
 
-def number_exponent(diameter: NDArray, low: float, high: float) -> float:
-    r"""Return the exponent of the number of grains that are larger than a size.
-
-    .. math:: N(> d) \sim d^{-\alpha}
-
-    Counted at sizes between two, even in their logarithm; every size counts alike.
+def crushed_grains(
+    seeds: Sequence[int],
+    read_run: Callable[[int], Run],
+    read_control: Callable[[int], Control],
+    breakage: Mapping[str, Any],
+    *,
+    confidence: float,
+    resamples: int,
+) -> CrushedGrains:
+    """Return who breaks and who survives in all seeds of a sample, and the energy split meanwhile.
 
     Parameters
     ----------
-    diameter : ndarray, shape (N,)
-        [m]
-    low, high : float
-        Between which there are fragments alone: the comminution limit, and the smallest first
-        grain [m].
+    seeds : list of int
+    read_run, read_control : callable
+        Take the number of a seed, from 0; called for one seed after the other.
+    breakage : mapping
+        The section `breakage` of the sample, in SI.
+    confidence : float
+    resamples : int
+        Draws of the seeds.
 
     Returns
     -------
-    float
-        alpha [-]; nan where the range is narrower than a factor of 2.
-
-    Examples
-    --------
-    >>> sizes = np.arange(1.0, 20001.0) ** -0.5  # the k-th largest is k^(-1/2)
-    >>> round(number_exponent(sizes, 0.01, 0.1), 2)
-    2.0
+    CrushedGrains
+        Tables of a crushing where no grain broke are empty, and the summary's sentences say so.
     """
-    if not high > _RANGE * low:
-        return float("nan")
-    sizes = np.geomspace(low, high, _COUNTED)
-    larger = len(diameter) - np.searchsorted(np.sort(diameter), sizes, side="right")
-    try:
-        return -float(power_law_fit(sizes, larger.astype(float)).exponent)
-    except FitError:
-        return float("nan")
+    limit = breakage["smallest_diameter"]
+    options = {"confidence": confidence, "resamples": resamples}
+    at_risk, first, old, broken, networks, paths = [], [], [], [], [], []
+    controls: list[dict[int, Network]] = []
+    control_paths = []
+    for number in range(len(seeds)):
+        path, grains, contacts, walls, breakages = read_run(number)
+        seed = grains_at_risk(grains, contacts, walls, limit)
+        at_risk.append(seed)
+        first.append(_first_of(seed, grains, path))
+        states = [int(state) for state in path["state"] if state > 0]
+        networks.append(networks_of(grains, contacts, walls, states))
+        last = grains[grains["state"] == grains["state"].max()]
+        old.append((last["generation"] == 0).to_numpy())
+        broken.append(breakages)
+        paths.append(path)
+        control_path, radii, *tables = read_control(number)
+        control_paths.append(control_path)
+        controls.append(
+            {
+                int(state): state_network(radii, *tables, int(state))
+                for state in control_path["state"]
+                if state > 0
+            }
+        )
+    areas, curves = foretellers(at_risk, **options)
+    results = {
+        "areas": areas,
+        "curves": curves,
+        "hazards": hazards(at_risk, limit, **options),
+        "survivors": survivals(first, **options),
+        "survival": survival_curves(first),
+        "exponents": exponents_beside_control(networks, controls, paths, control_paths, **options),
+        "loads": load_by_radius([of[max(of)] for of in networks], old, limit, **options),
+        "overshoots": overshoots(broken, breakage["size_exponent"], limit, **options),
+    }
+    seen = int(sum(seed["broke"].sum() for seed in at_risk))
+    summary = {
+        "seeds": list(seeds),
+        "comminution_limit_m": limit,
+        "breakages": sum(map(len, broken)),
+        "breakages_seen_in_a_state": seen,
+    }
+    summary["sentences"] = grains_sentences(summary, results)
+    return CrushedGrains(**results, summary=summary)
+
+
+def _first_of(seed: pd.DataFrame, grains: pd.DataFrame, path: pd.DataFrame) -> pd.DataFrame:
+    """Return the first grains, with the contacts they had in the first loaded state of breaking."""
+    begun = from_first_breakage(seed)
+    loaded = path.loc[path["carries_load"].astype(str) == "True", "state"]
+    states = np.intersect1d(begun["state"], loaded)
+    state = states.min() if states.size else -1
+    at = seed[seed["state"] == state].set_index("grain")["contacts"]
+    return first_grains(grains, at, path.set_index("state")["solid_fraction"])

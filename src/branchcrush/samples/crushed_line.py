@@ -8,8 +8,8 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from branchcrush.packings.contact_laws import HertzContact
-from branchcrush.samples.crushed_grains import Crushable
 from branchcrush.samples.crushed_path import control_law
+from branchcrush.samples.crushed_sizes import Crushable
 from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
 
 # Share of the mass in fragments from which on a packing yields, and states that a line needs.

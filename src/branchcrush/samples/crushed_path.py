@@ -8,7 +8,7 @@ from branchcrush.branches.random_contacts import random_contact_moment
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.samples.crushed_grains import Crushable, grading_row
+from branchcrush.samples.crushed_sizes import Crushable, grading_row
 from branchcrush.samples.measured import EXPONENT
 
 # Parts of the work, of which the shares add up to 1.

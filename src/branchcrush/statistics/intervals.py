@@ -40,6 +40,7 @@ class Resampling(IntEnum):
     SHARING = 23
     FINDINGS = 24
     CRUSHED = 25
+    CRUSHED_GRAINS = 26
 
     def rng(self) -> np.random.Generator:
         """Return a generator at the beginning of this state's draws.
@@ -251,6 +252,52 @@ def pooled_interval(
         return interval_of_refits(estimate, [], seeds, confidence)
     drawn = np.tensordot(seed_draws(seeds, resamples, rng), sums, axes=1)
     return interval_of_refits(estimate, statistic(drawn), seeds, confidence)
+
+
+def share_interval(
+    sums: ArrayLike,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 2000,
+    rng: np.random.Generator,
+) -> Interval:
+    r"""Return shares of all seeds together, with intervals from resampling seeds inside 0 to 1.
+
+    .. math:: \hat\theta = \sum_s k_s \Big/ \sum_s n_s
+
+    A share of 0 or 1 in every seed does not scatter, which tells nothing of its error: the limits
+    are nan there.
+
+    Parameters
+    ----------
+    sums : array_like, shape (S, 2, ...)
+        k_s and n_s of each seed.
+    confidence, resamples, rng
+        As for `pooled_interval`.
+
+    Returns
+    -------
+    Interval
+        nan where n is 0.
+
+    Examples
+    --------
+    >>> tuple(share_interval([[0, 5], [0, 7]], rng=np.random.default_rng(1)))
+    (0.0, nan, nan)
+    >>> share_interval([[1, 5], [4, 5]], rng=np.random.default_rng(1))[1:]
+    (0.0, 1.0)
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share, low, high = pooled_interval(
+            sums,
+            lambda x: x[:, 0] / x[:, 1],
+            confidence=confidence,
+            resamples=resamples,
+            rng=rng,
+        )
+    inside = (np.asarray(share) > 0.0) & (np.asarray(share) < 1.0)
+    limits = (np.where(inside, np.clip(limit, 0.0, 1.0), np.nan) for limit in (low, high))
+    return Interval(share, *(_plain(limit) for limit in limits))
 
 
 def _plain(value: Any) -> Any:

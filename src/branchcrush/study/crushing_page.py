@@ -25,6 +25,8 @@ class CrushingPage:
         page shows the figure alone.
     means, beside : DataFrame
         `crushing_means.csv` and `crushing_beside_forms.csv`.
+    grains : sequence of str
+        Sentences of `crushed_grains.json`, on who breaks and how energy is split meanwhile.
     """
 
     name: str
@@ -32,6 +34,7 @@ class CrushingPage:
     figures: Mapping[str, Any]
     means: Table
     beside: Table
+    grains: Sequence[str] = ()
 
     @property
     def leads(self) -> dict[str, str]:

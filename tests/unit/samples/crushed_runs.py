@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.packings.contact_laws import LinearContact
-from branchcrush.samples.crushed_grains import Crushable
+from branchcrush.samples.crushed_sizes import Crushable
 
 SAMPLE = Crushable(limit=0.25e-3, size_exponent=1.0, ultimate_alpha=2.6, law=LinearContact(1e6))
 RADIUS = 0.5e-3

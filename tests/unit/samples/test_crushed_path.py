@@ -8,8 +8,8 @@ from branchcrush.crushing.breakage import einav_breakage
 from branchcrush.gradings.forms import fractal
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact
-from branchcrush.samples.crushed_grains import number_exponent
 from branchcrush.samples.crushed_path import PARTS, crushed_path
+from branchcrush.samples.crushed_sizes import number_exponent
 from tests.unit.samples.crushed_runs import BROKEN, RADIUS, SAMPLE, SOLID, STRAIN, control, run
 
 
