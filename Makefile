@@ -79,7 +79,7 @@ findings: $(READY) ## what the energy of a branch depends on, in five gradings: 
 	$(MADE) > docs/results/findings_made.txt
 
 mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradings: docs/mixing.md, an hour on 2 cores
-	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/mixing
+	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/mixing --until compression
 	$(BIN)/python studies/mixing/compare.py
 	$(MADE) > docs/results/mixing_made.txt
 
