@@ -91,7 +91,7 @@ def _blocks(pairs, tables, predictions, there, missing, untold):
     if missing:
         told += [
             "",
-            "So this page is not finished. Missing:",
+            "Missing, and why:",
             "",
             *(f"- {line}" for line in missing),
         ]
