@@ -5,17 +5,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.branches.load_bearing import compressed_coordination
+from branchcrush.branches.load_bearing import rod_coordination
+from branchcrush.branches.coordination_laws import jamming_law
 from branchcrush.branches.nodes import grading_nodes
 from branchcrush.branches.uniform_stress import ForceNetwork, force_network
 from branchcrush.breakage.fragments import packed_spheres
 from branchcrush.breakage.rules import Breakage
 from branchcrush.gradings.distribution import Grading
-from branchcrush.gradings.rods import rod_map
+from branchcrush.gradings.rods import rod_map, gap_at
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
 # Classes of size to a factor e, of Weibull's w, and step of ln(phi).
-CLASSES, FACTORS, STEP = 20, 50, 1e-3
+CLASSES, FACTORS, STEP = 20, 50, 2e-3
+TURN = 1.0
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,9 @@ def crushing_path(
             phi = jamming
             start = jamming
         eps = max(1.0 - jamming / phi, 0.0)
-        coordination, _ = compressed_coordination(diameter[there] / 2.0, number, eps)
+        R = diameter[there] / 2.0
+        rods = rod_map(R, number, gap_at(R, number, phi, 1000), 2000) if eps > 0 else rod_map(R, number)
+        coordination = rod_coordination(R, number, rods, float(jamming_law(max(phi - jamming, 0.0))))
         network = force_network(diameter[there] / 2.0, number, coordination, phi, law)
         p = float(network.stress(eps))
         if jamming_before is not None:
@@ -88,9 +92,9 @@ def crushing_path(
         if phi >= solid_fraction * (1 - 1e-12):
             break
         after = min(phi * np.exp(step), solid_fraction)
-        trial = 1.0 - jamming / after
+        trial = 0.5 * (eps + 1.0 - jamming / after)
         over = network.overloaded(largest[there], float(network.stress(trial)))
-        renewals = np.log(after / phi) / trial if trial > 0 else 0.0
+        renewals = TURN * np.log(after / phi) / trial if trial > 0 else 0.0
         breaks = np.zeros_like(first)
         breaks[there] = -np.expm1(renewals * np.log1p(-np.minimum(over, 1 - 1e-15)))
         gone = breaks * (first + later)
