@@ -1,131 +1,247 @@
 """How a grading goes while its grains break, from strengths and contacts alone: no simulation."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from branchcrush.branches.load_bearing import rod_coordination
+from branchcrush.branches.coordination import Coordination
 from branchcrush.branches.coordination_laws import jamming_law
+from branchcrush.branches.load_bearing import rod_coordination
 from branchcrush.branches.nodes import grading_nodes
-from branchcrush.branches.uniform_stress import ForceNetwork, force_network
-from branchcrush.breakage.fragments import packed_spheres
+from branchcrush.branches.uniform_stress import force_network
 from branchcrush.breakage.rules import Breakage
+from branchcrush.breakage.shares import fragment_shares, split_by_size, weibull_bins
 from branchcrush.gradings.distribution import Grading
-from branchcrush.gradings.rods import rod_map, gap_at
+from branchcrush.gradings.rods import gap_at, rod_map
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 
-# Classes of size to a factor e, of Weibull's w, and step of ln(phi).
-CLASSES, FACTORS, STEP = 20, 50, 2e-3
-TURN = 1.0
+# Classes of size to a factor e, bins of strength in each, and the step of ln(phi).
+CLASSES, STRENGTHS, STEP = 20, 50, 1e-3
+# Rods that the gap beyond jamming is sought with, and that tell who pushes there.
+_SEARCHED, _PUSHING = 1_000, 2_000
 
 
 @dataclass(frozen=True)
-class CrushingPath:
-    """A grading along its crushing; arrays of a row for each state, S of them."""
+class CrushingGradings:
+    """A grading along its crushing, S states of K classes of size.
 
-    diameter: NDArray  # of the classes, shape (K,) [m]
-    mass: NDArray  # share of each class, shape (S, K) [-]
+    Parameters
+    ----------
+    diameter : ndarray, shape (K,)
+        Of the classes, rising [m].
+    mass : ndarray, shape (S, K)
+        Share of each class [-].
+    solid_fraction, jamming : ndarray, shape (S,)
+        phi, and phi_J of the grading there is [-].
+    elastic_strain : ndarray, shape (S,)
+        eps_e = 1 - phi_J/phi [-].
+    mean_stress : ndarray, shape (S,)
+        p [Pa].
+    coordination_number : ndarray, shape (S,)
+        kappa, rattlers counted [-].
+    broken_mass : ndarray, shape (S,)
+        Share of the mass that is fragments [-].
+    dissipated : ndarray, shape (S,)
+        Of the volume at jamming before crushing [J/m3].
+    """
+
+    diameter: NDArray
+    mass: NDArray
     solid_fraction: NDArray
-    jamming: NDArray  # phi_J of the grading there is [-]
-    elastic_strain: NDArray  # eps_e [-]
-    mean_stress: NDArray  # p [Pa]
-    broken_mass: NDArray  # share of the mass that is fragments [-]
-    dissipated: NDArray  # of the volume at jamming before crushing [J/m3]
+    jamming: NDArray
+    elastic_strain: NDArray
+    mean_stress: NDArray
+    coordination_number: NDArray
+    broken_mass: NDArray
+    dissipated: NDArray
 
     @property
     def void_ratio(self) -> NDArray:
+        """Pores over grains, e [-]."""
         return 1.0 / self.solid_fraction - 1.0
 
     @property
     def grains(self) -> NDArray:
-        """Grains over those before [-]."""
+        """Grains over those before crushing [-]."""
         number = (self.mass / self.diameter**3).sum(axis=1)
         return number / number[0]
 
+    def grading(self, state: int) -> Grading:
+        """Return the grading of a state, of single radii."""
+        held = self.mass[state] > 0.0
+        radius = self.diameter[held] / 2.0
+        return Grading(radii=radius, weights=self.mass[state][held] / radius**3)
 
-def crushing_path(
+
+class _State(NamedTuple):
+    """A row of the result, in the order of its columns."""
+
+    mass: NDArray
+    solid_fraction: float
+    jamming: float
+    elastic_strain: float
+    mean_stress: float
+    coordination_number: float
+    broken_mass: float
+
+
+def crushing_gradings(
     grading: Grading,
     law: LinearContact | HertzContact,
     rules: Breakage,
     solid_fraction: float,
     *,
     classes: int = CLASSES,
-    factors: int = FACTORS,
+    strengths: int = STRENGTHS,
     step: float = STEP,
-) -> CrushingPath:
-    radius, share = grading_nodes(grading)
-    diameter = _classes(2.0 * radius, rules, classes)
-    initial = _split(np.log(2.0 * radius), share * radius**3, np.log(diameter))
-    initial /= initial.sum()
-    table = _fragments(diameter, rules)
-    levels = (np.arange(factors) + 0.5) / factors
-    strength = rules.strength
-    weibull = (-np.log1p(-levels)) ** (1.0 / strength.weibull_modulus)
-    largest = strength.of(diameter[:, None], weibull) * diameter[:, None] ** 2
-    largest[diameter <= rules.smallest_diameter] = np.inf
+    renewals: float | None = None,
+) -> CrushingGradings:
+    r"""Return how a grading is crushed under compression, from its grains' strengths.
 
-    first = np.repeat(initial[:, None] / factors, factors, axis=1)
+    .. math:: \epsilon_e = 1 - \frac{\phi_J}{\phi}, \quad
+        d\nu = \frac{p\, d\ln\phi}{\Psi} = a \frac{d\ln\phi}{\epsilon_e}, \quad
+        d \ln N(d, w) = \ln\left[1 - P(d, w)\right] d\nu
+
+    phi_J is that of rods, p and the forces are those of `uniform_stress`, and P is the share of
+    the grains of a diameter and a Weibull factor that a force breaks. The forces are drawn anew
+    each time as much work is done as is stored. Fragments are those of
+    `breakage.fragments.packed_spheres`, with strengths of their own.
+
+    Parameters
+    ----------
+    grading : Grading
+        Before crushing.
+    law : LinearContact or HertzContact
+    rules : Breakage
+        Of it the strength, the smallest diameter that breaks and the number of fragments.
+    solid_fraction : float
+        phi that the compression goes to [-].
+    classes, strengths : int
+        Classes of size to a factor e, and bins of equal numbers of Weibull's w in each.
+    step : float
+        Of ln(phi) [-].
+    renewals : float, optional
+        In the place of a, the exponent of energy: 2 with linear contacts, 5/2 with Hertz's [-].
+
+    Returns
+    -------
+    CrushingGradings
+        From the jamming point on.
+
+    Raises
+    ------
+    ValueError
+        When grains break by another criterion than the largest force, or the packing is to go no
+        farther than where it jams.
+    FitError
+        As `load_bearing.rod_coordination`.
+
+    Examples
+    --------
+    >>> from branchcrush.breakage.strength import Strength
+    >>> from branchcrush.gradings.forms import uniform
+    >>> sand = Strength(strength=2e7, weibull_modulus=3.0, reference_diameter=1e-3,
+    ...                 size_exponent=1.0)
+    >>> rules = Breakage(strength=sand, smallest_diameter=2.5e-4)
+    >>> path = crushing_gradings(uniform(0.4e-3, 0.6e-3), LinearContact(1e6), rules, 0.68,
+    ...                          classes=8, strengths=10, step=4e-3)
+    >>> bool(path.grains[-1] > 2.0), round(float(path.mass[-1].sum()), 12)
+    (True, 1.0)
+    """
+    if rules.criterion != "largest_force":
+        raise ValueError(
+            f"breakage.criterion is {rules.criterion}; gradings are predicted for largest_force "
+            "alone, since the model knows the size of forces and not their directions"
+        )
+    nodes, share = grading_nodes(grading)
+    diameter = _classes(2.0 * nodes, rules, classes)
+    mass = split_by_size(2.0 * nodes, share * nodes**3, diameter)
+    strength = rules.strength.of(diameter[:, None], weibull_bins(rules.strength, strengths))
+    largest = strength * diameter[:, None] ** 2
+    largest[diameter <= rules.smallest_diameter] = np.inf
+    turns = law.exponent + 1.0 if renewals is None else renewals
+    states = list(
+        _states(
+            diameter,
+            mass / mass.sum(),
+            largest,
+            fragment_shares(diameter, rules),
+            law,
+            (solid_fraction, step, turns),
+        )
+    )
+    columns = [np.array(column) for column in zip(*states, strict=True)]
+    return CrushingGradings(diameter, *columns, _dissipated(columns[2], columns[4]))
+
+
+def _states(
+    diameter: NDArray,
+    mass: NDArray,
+    largest: NDArray,
+    shares: NDArray,
+    law: LinearContact | HertzContact,
+    march: tuple[float, float, float],
+) -> Iterator[_State]:
+    """Yield a state after each step; whole grains and fragments are kept by class and strength."""
+    target, step, turns = march
+    bins = largest.shape[1]
+    first = np.repeat(mass[:, None] / bins, bins, axis=1)
     later = np.zeros_like(first)
-    rows = []
-    dissipated, jamming_before, eps = 0.0, None, 0.0
-    phi = None
+    phi = 0.0
     while True:
         mass = (first + later).sum(axis=1)
-        there = mass > 0.0
-        number = mass[there] / diameter[there] ** 3
-        number /= number.sum()
-        jamming = rod_map(diameter[there] / 2.0, number).solid_fraction
-        if phi is None:
+        held = mass > 0.0
+        radius, number = diameter[held] / 2.0, mass[held] / diameter[held] ** 3
+        number = number / number.sum()
+        jamming = rod_map(radius, number).solid_fraction
+        if not phi:
             phi = jamming
-            start = jamming
-        eps = max(1.0 - jamming / phi, 0.0)
-        R = diameter[there] / 2.0
-        rods = rod_map(R, number, gap_at(R, number, phi, 1000), 2000) if eps > 0 else rod_map(R, number)
-        coordination = rod_coordination(R, number, rods, float(jamming_law(max(phi - jamming, 0.0))))
-        network = force_network(diameter[there] / 2.0, number, coordination, phi, law)
-        p = float(network.stress(eps))
-        if jamming_before is not None:
-            dissipated += 0.5 * (p + rows[-1][4]) * start / jamming * np.log(jamming / jamming_before)
-        jamming_before = jamming
-        rows.append((mass, phi, jamming, eps, p, float(later.sum()), dissipated))
-        if phi >= solid_fraction * (1 - 1e-12):
-            break
-        after = min(phi * np.exp(step), solid_fraction)
-        trial = 0.5 * (eps + 1.0 - jamming / after)
-        over = network.overloaded(largest[there], float(network.stress(trial)))
-        renewals = TURN * np.log(after / phi) / trial if trial > 0 else 0.0
-        breaks = np.zeros_like(first)
-        breaks[there] = -np.expm1(renewals * np.log1p(-np.minimum(over, 1 - 1e-15)))
-        gone = breaks * (first + later)
-        born = gone.sum(axis=1) @ table
-        first = first - breaks * first
-        later = later - breaks * later + born[:, None] / factors
+            if not phi < target < 1.0:
+                raise ValueError(
+                    f"the solid fraction must be above {phi:.4g}, where this grading jams, and "
+                    f"below 1: {target:g}"
+                )
+        strain = max(1.0 - jamming / phi, 0.0)
+        coordination = _coordination(radius, number, jamming, phi)
+        network = force_network(radius, number, coordination, phi, law)
+        stress = float(network.stress(strain))
+        kappa = float(number @ coordination.contacts)
+        yield _State(mass, phi, jamming, strain, stress, kappa, float(later.sum()))
+        if phi >= target:
+            return
+        after = min(phi * np.exp(step), target)
+        # Half way through the step, before anything breaks.
+        middle = 0.5 * (strain + 1.0 - jamming / after)
+        if middle > 0.0:
+            broken = np.zeros_like(first)
+            share = network.overloaded(largest[held], float(network.stress(middle)))
+            turned = turns * np.log(after / phi) / middle
+            broken[held] = -np.expm1(turned * np.log1p(-np.minimum(share, 1.0 - 1e-15)))
+            born = (broken * (first + later)).sum(axis=1) @ shares
+            first = first - broken * first
+            later = later - broken * later + born[:, None] / bins
         phi = after
-    m, f, j, e, p, b, d = (np.array(part) for part in zip(*rows, strict=True))
-    return CrushingPath(diameter, m, f, j, e, p, b, d)
 
 
-def _classes(diameter, rules, classes):
-    least = min(rules.finest_diameter, diameter.min())
-    count = int(np.ceil(np.log(diameter.max() / least) * classes)) + 1
-    return np.geomspace(least, diameter.max(), count)
+def _coordination(radius: NDArray, number: NDArray, jamming: float, phi: float) -> Coordination:
+    """Return contact numbers by rods that push, beyond jamming or at it."""
+    # Where the packing is a hair looser than its grading jams, it is taken where it jams.
+    gap = gap_at(radius, number, max(phi, jamming), _SEARCHED)
+    rods = rod_map(radius, number, gap, _PUSHING)
+    return rod_coordination(radius, number, rods, float(jamming_law(max(phi - jamming, 0.0))))
 
 
-def _split(log, weight, nodes):
-    """Give each weight to the two classes beside it; its mass and mean logarithm are kept."""
-    place = np.interp(log, nodes, np.arange(nodes.size))
-    low = np.minimum(place.astype(int), nodes.size - 2)
-    part = place - low
-    return np.bincount(low, weight * (1 - part), nodes.size) + np.bincount(
-        low + 1, weight * part, nodes.size
-    )
+def _classes(diameter: NDArray, rules: Breakage, classes: int) -> NDArray:
+    """Return even classes in ln(d), from the finest there can be to the largest there is."""
+    least = min(rules.finest_diameter, float(diameter.min()))
+    largest = float(diameter.max())
+    return np.geomspace(least, largest, int(np.ceil(np.log(largest / least) * classes)) + 2)
 
 
-def _fragments(diameter, rules):
-    ratio = packed_spheres(rules.fragments)[:, 3] * rules.growth[-1]
-    table = np.zeros((diameter.size, diameter.size))
-    for row, parent in enumerate(diameter):
-        if parent > rules.smallest_diameter:
-            table[row] = _split(np.log(ratio * parent), ratio**3, np.log(diameter))
-    return table
+def _dissipated(jamming: NDArray, stress: NDArray) -> NDArray:
+    """Return the integral of p (phi_J0/phi_J) dln(phi_J), by the middles of the steps."""
+    middle = 0.5 * (stress[1:] / jamming[1:] + stress[:-1] / jamming[:-1]) * jamming[0]
+    return np.append(0.0, np.cumsum(middle * np.diff(np.log(jamming))))
