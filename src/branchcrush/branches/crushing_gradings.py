@@ -11,7 +11,7 @@ from branchcrush.branches.coordination import Coordination
 from branchcrush.branches.coordination_laws import jamming_law
 from branchcrush.branches.load_bearing import rod_coordination
 from branchcrush.branches.nodes import grading_nodes
-from branchcrush.branches.uniform_stress import force_network
+from branchcrush.branches.uniform_stress import ForceNetwork, force_network
 from branchcrush.breakage.rules import Breakage
 from branchcrush.breakage.shares import fragment_shares, split_by_size, weibull_bins
 from branchcrush.gradings.distribution import Grading
@@ -22,6 +22,9 @@ from branchcrush.packings.contact_laws import HertzContact, LinearContact
 CLASSES, STRENGTHS, STEP = 20, 50, 1e-3
 # Rods that the gap beyond jamming is sought with, and that tell who pushes there.
 _SEARCHED, _PUSHING = 1_000, 2_000
+# Levels to a factor 2 of the forces where a grain broke, and the largest: grains that break under
+# forces that many times the usual ones have next to no mass.
+_LEVELS, _MOST = 2, 64.0
 
 
 @dataclass(frozen=True)
@@ -108,7 +111,9 @@ def crushing_gradings(
     phi_J is that of rods, p and the forces are those of `uniform_stress`, and P is the share of
     the grains of a diameter and a Weibull factor that a force breaks. The forces are drawn anew
     each time as much work is done as is stored. Fragments are those of
-    `breakage.fragments.packed_spheres`, with strengths of their own.
+    `breakage.fragments.packed_spheres`, with strengths of their own. They are where the force was
+    large enough to break their parent: at first they are drawn forces that are larger by
+    F_c over the mean largest force on grains of the parent's size, where this is above 1.
 
     Parameters
     ----------
@@ -174,7 +179,9 @@ def crushing_gradings(
         )
     )
     columns = [np.array(column) for column in zip(*states, strict=True)]
-    return CrushingGradings(diameter, *columns, _dissipated(columns[2], columns[4]))
+    mass, phi, jamming, strain, stress, kappa, broken = columns
+    lost = _dissipated(jamming, stress)
+    return CrushingGradings(diameter, mass, phi, jamming, strain, stress, kappa, broken, lost)
 
 
 def _states(
@@ -187,8 +194,7 @@ def _states(
 ) -> Iterator[_State]:
     """Yield a state after each step; whole grains and fragments are kept by class and strength."""
     target, step, turns = march
-    bins = largest.shape[1]
-    first = np.repeat(mass[:, None] / bins, bins, axis=1)
+    first = np.repeat(mass[:, None] / largest.shape[1], largest.shape[1], axis=1)
     later = np.zeros_like(first)
     phi = 0.0
     while True:
@@ -216,14 +222,49 @@ def _states(
         # Half way through the step, before anything breaks.
         middle = 0.5 * (strain + 1.0 - jamming / after)
         if middle > 0.0:
-            broken = np.zeros_like(first)
-            share = network.overloaded(largest[held], float(network.stress(middle)))
+            stress = float(network.stress(middle))
+            broken, born = np.zeros_like(first), np.zeros_like(first)
+            share = network.overloaded(largest[held], stress)
             turned = turns * np.log(after / phi) / middle
             broken[held] = -np.expm1(turned * np.log1p(-np.minimum(share, 1.0 - 1e-15)))
-            born = (broken * (first + later)).sum(axis=1) @ shares
+            gone = broken * (first + later)
+            for local, mass in _places(gone[held], largest[held], network, stress):
+                there = np.zeros_like(first)
+                there[held] = network.overloaded(largest[held], local * stress)
+                born += _fragments(_spread(mass, held), shares, there)
             first = first - broken * first
-            later = later - broken * later + born[:, None] / bins
+            later = later - broken * later + born
         phi = after
+
+
+def _places(
+    gone: NDArray, largest: NDArray, network: ForceNetwork, stress: float
+) -> Iterator[tuple[float, NDArray]]:
+    """Yield by how much forces are larger where grains broke, and the mass there by class."""
+    usual = stress * network.largest_force[:, None]
+    # What never breaks has an infinite strength and no mass here.
+    over = np.where(gone > 0.0, largest, usual) / np.maximum(usual, 1e-300)
+    level = np.round(_LEVELS * np.log2(np.clip(over, 1.0, _MOST))).astype(int)
+    for place in np.unique(level):
+        yield 2.0 ** (place / _LEVELS), np.where(level == place, gone, 0.0).sum(axis=1)
+
+
+def _fragments(mass: NDArray, shares: NDArray, overloaded: NDArray) -> NDArray:
+    """Return by class and strength what grains break into; what is overloaded breaks at once."""
+    whole = np.zeros_like(overloaded)
+    born = mass @ shares
+    while born.any():  # every fragment is finer, and the finest never break
+        fresh = np.repeat(born[:, None] / whole.shape[1], whole.shape[1], axis=1)
+        whole += fresh * (1.0 - overloaded)
+        born = (fresh * overloaded).sum(axis=1) @ shares
+    return whole
+
+
+def _spread(values: NDArray, held: NDArray) -> NDArray:
+    """Return the values of the classes that hold grains among all classes."""
+    every = np.zeros(held.size)
+    every[held] = values
+    return every
 
 
 def _coordination(radius: NDArray, number: NDArray, jamming: float, phi: float) -> Coordination:

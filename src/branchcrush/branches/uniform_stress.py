@@ -1,6 +1,7 @@
 """Forces on the contacts of a grading whose grains that carry load all bear one mean stress."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +12,8 @@ from branchcrush.packings.contact_laws import HertzContact, LinearContact, reduc
 
 # Shape of the gamma distribution of a force over its mean: (1 + 2x) exp(-2x) are above x.
 FORCE_SHAPE = 2.0
+# Of forces over their means, up to which their largest is sought, and how finely.
+_LARGEST_RATIO, _RATIOS = 20.0, 101
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,14 @@ class ForceNetwork:
     force: NDArray
     softness: float
     exponent: float
+
+    @cached_property
+    def largest_force(self) -> NDArray:
+        """Mean of the largest force on a grain that carries load, over the mean stress [m2]."""
+        ratio = np.linspace(0.0, _LARGEST_RATIO, _RATIOS)
+        above = self.overloaded(self.force[:, None] * ratio, 1.0)
+        carrying = np.where(self.bearing > 0.0, self.bearing, 1.0)
+        return self.force * np.trapezoid(above, ratio, axis=1) / carrying
 
     def stress(self, strain: ArrayLike) -> NDArray:
         """Return the mean stress p at elastic strains [Pa]."""

@@ -148,7 +148,8 @@ def beside_predicted(
 
     Examples
     --------
-    >>> seed = pd.DataFrame({"state": [4], "solid_fraction": [0.7], **dict.fromkeys(QUANTITIES, 2.0)})
+    >>> seed = pd.DataFrame({"state": [4], "solid_fraction": [0.7]})
+    >>> seed = seed.assign(**dict.fromkeys(QUANTITIES, 2.0))
     >>> said = seed.assign(**dict.fromkeys(QUANTITIES, 4.0))
     >>> table = beside_predicted(said, {1: seed, 2: seed})
     >>> table[["quantity", "predicted", "measured", "error"]].round(3).iloc[0].tolist()
