@@ -150,5 +150,5 @@ def force_network(
 
 
 def _above(ratio: NDArray) -> NDArray:
-    doubled = np.minimum(FORCE_SHAPE * ratio, 700.0)  # of a grain that never breaks it is infinite
+    doubled = np.minimum(FORCE_SHAPE * ratio, 800.0)  # infinite of grains that never break
     return (1.0 + doubled) * np.exp(-doubled)
