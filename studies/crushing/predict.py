@@ -49,9 +49,7 @@ def predict() -> None:
     for name in PREDICTED:
         settings = samples[name]
         rules, law = breakage_of(settings["breakage"]), contact_law(**settings["contact"])
-        path = crushing_gradings(
-            grading_of(settings["grading"]), law, rules, SOLID_FRACTIONS[-1]
-        )
+        path = crushing_gradings(grading_of(settings["grading"]), law, rules, SOLID_FRACTIONS[-1])
         table = predicted_states(path, rules, SOLID_FRACTIONS).dropna(subset="mean_stress_Pa")
         table.insert(0, "sample", name)
         tables.append(table)
