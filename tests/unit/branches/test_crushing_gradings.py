@@ -69,7 +69,7 @@ def test_another_criterion_and_too_loose_a_packing_are_refused():
     )
     with pytest.raises(ValueError, match=r"breakage\.criterion is octahedral_stress"):
         crushing_gradings(SAND, LINEAR, octahedral, 0.7)
-    with pytest.raises(ValueError, match="must be above 0.64"):
+    with pytest.raises(ValueError, match=r"must be above 0\.64"):
         crushing_gradings(SAND, LINEAR, rules(), 0.6)
 
 
