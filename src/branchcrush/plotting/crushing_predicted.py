@@ -9,7 +9,6 @@ from branchcrush.plotting.style import MEASURED, MODEL, axes, figure, grid
 
 LABELS = {
     "grains_ratio": "grains over those before [-]",
-    "mean_stress_Pa": "mean stress [MPa]",
     "einav_breakage": "Einav's breakage B [-]",
 }
 _MEGA = 1e6
@@ -33,7 +32,7 @@ def plot_predicted(quantity: str, predicted: Table, beside: Table, ax: Axes | No
     ax = axes(ax)
     rows = beside[beside["quantity"] == quantity]
     ax.plot(predicted["solid_fraction"], predicted[quantity], color=MODEL, label="predicted")
-    _points(ax, rows["solid_fraction"], rows, 1.0)
+    _points(ax, rows)
     ax.set(xlabel="solid fraction [-]", ylabel=LABELS[quantity])
     end = rows["solid_fraction"].max()
     ax.set_xlim(right=end + 0.01)
@@ -66,7 +65,7 @@ def plot_predicted_line(predicted: Table, beside: Table, ax: Axes | None = None)
     void_ratio = 1.0 / rows["solid_fraction"] - 1.0
     label = f"simulated, mean of {rows['seeds'].iloc[0]} seeds"
     ax.plot(rows["measured"] / _MEGA, void_ratio, "o", color=MEASURED, label=label)
-    ax.set(xscale="log", xlabel=LABELS["mean_stress_Pa"], ylabel="void ratio e [-]")
+    ax.set(xscale="log", xlabel="mean stress [MPa]", ylabel="void ratio e [-]")
     ax.xaxis.set_major_formatter("{x:g}")
     return ax
 
@@ -91,10 +90,12 @@ def draw_crushing_predicted(
         line.legend()
 
 
-def _points(ax: Axes, x, rows: Table, scale: float) -> None:
-    label = f"simulated, mean of {rows['seeds'].iloc[0]} seeds"
-    ax.plot(x, rows["measured"] / scale, "o", color=MEASURED, label=label)
+def _points(ax: Axes, rows: Table) -> None:
+    phi, mean = rows["solid_fraction"], rows["measured"]
+    ax.plot(
+        phi, mean, "o", color=MEASURED, label=f"simulated, mean of {rows['seeds'].iloc[0]} seeds"
+    )
     if rows["measured_low"].notna().any():
-        half = (rows["measured_high"] - rows["measured"]) / scale
-        low = (rows["measured"] / scale).clip(upper=half)
-        ax.errorbar(x, rows["measured"] / scale, [low, half], fmt="none", color=MEASURED, lw=0.6)
+        half = rows["measured_high"] - mean
+        # No interval of these quantities reaches below 0.
+        ax.errorbar(phi, mean, [half.clip(upper=mean), half], fmt="none", color=MEASURED, lw=0.6)
