@@ -20,6 +20,9 @@
     far they are from the measured ones, `distances`. `PREDICTIONS` holds the looks of all.
 `coordination_laws`
     Coordination numbers of the void ratio, the jamming law and its fit.
+`uniform_stress`, `crushing_gradings`
+    Forces on the grains that carry load, each bearing one mean stress, and how a grading goes while
+    its grains break.
 
 A new model of contact numbers is a function of radii and their shares, and an entry of `MODELS`:
 its branch lengths, distances and figures follow.
