@@ -70,7 +70,8 @@ def summary(result):
     crushed = result["crushed"]
     return [
         f"{crushed['grains']} grains, {crushed['breakages']} breakages, "
-        f"{crushed['rounds']} rounds, {crushed['evaluations']} evaluations: {crushed['cpu_s']:.0f} CPU s",
+        f"{crushed['rounds']} rounds, {crushed['evaluations']} evaluations: "
+        f"{crushed['cpu_s']:.0f} CPU s",
         f"{100 * result['outside_share']:.1f} % of it outside LAMMPS",
         f"{crushed['ns_per_grain_and_evaluation']:.0f} ns a grain and evaluation, "
         f"{result['cost_ratio']:.2f} times that of grains that do not break",

@@ -1,8 +1,6 @@
 # Who breaks, who survives, and the energy split while grains break: all seeds of a sample, beside
 # the packings whose grains do not.
 
-GRAINS_FIGURES = ["who_breaks", "split_of_crushed"]
-
 
 rule crushed_grains:
     input:

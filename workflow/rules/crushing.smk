@@ -2,13 +2,6 @@
 # broke along the path, beside the packing whose grains do not break.
 
 
-def of_crushed_seeds(file):
-    """Return an input function for a file of the crushing of every seed of the sample."""
-    return lambda wildcards: of_seeds(
-        file, f"{wildcards.sample}/crushing", settings_of(wildcards)["seeds"]
-    )
-
-
 rule crushing:
     input:
         packing="results/{sample}/seed_{seed}/packing.npz",

@@ -1,35 +1,6 @@
 # What crushing showed, of the samples whose grains break: all seeds of one -> tables and figures;
 # all samples -> a page of their own, only where there are any.
 
-BREAKING = [name for name, sample in SAMPLES.items() if sample["breakage"]]
-CRUSHING_TABLES = {
-    "states": "crushing_states",
-    "means": "crushing_means",
-    "gradings": "crushing_gradings",
-    "line": "crushing_line",
-    "beside": "crushing_beside_forms",
-}
-CRUSHING_FIGURES = [
-    "crushed_line",
-    "crushed_gradings",
-    "crushed_energy",
-    "crushed_measures",
-    "crushed_forms",
-    "crushed_packing",
-]
-CRUSHING_PAGE = str(ROOT / "workflow/report/crushing.html.jinja")
-
-
-def of_halved_seeds(file):
-    """Return an input function for a file of every seed that is crushed with half the steps."""
-
-    def files(wildcards):
-        name = wildcards.sample + REFINED
-        seeds = REFINED_SAMPLES[name]["seeds"] if name in REFINED_SAMPLES else []
-        return of_seeds(file, f"{name}/crushing", seeds)
-
-    return files
-
 
 rule crushing_results:
     input:
