@@ -94,7 +94,7 @@ def exponents_beside_control(
     Returns
     -------
     DataFrame
-        state, solid_fraction, broken_mass_fraction, branches, and of both (control_... of the
+        state, solid_fraction, broken_mass_fraction, branches, and of both (``control_...`` of the
         control): exponent with its limits, coordination_number, mechanical_coordination_number,
         rattler_fraction. The control's are nan where it has no state of equal solid fraction.
     """

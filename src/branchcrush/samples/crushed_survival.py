@@ -22,7 +22,7 @@ def hazards(
 ) -> pd.DataFrame:
     r"""Return breakages per grain and state, by contacts and by radius of the state before.
 
-    .. math:: h = \sum_s \mathrm{breakages}_s \Big/ \sum_s \mathrm{grains\ at\ risk}_s
+    .. math:: h = \sum_s \mathrm{breakages}_s / \sum_s \mathrm{grains\ at\ risk}_s
 
     States before the first breakage of a seed are left out: nothing has broken there.
 

@@ -263,7 +263,7 @@ def share_interval(
 ) -> Interval:
     r"""Return shares of all seeds together, with intervals from resampling seeds inside 0 to 1.
 
-    .. math:: \hat\theta = \sum_s k_s \Big/ \sum_s n_s
+    .. math:: \hat\theta = \sum_s k_s / \sum_s n_s
 
     A share of 0 or 1 in every seed does not scatter, which tells nothing of its error: the limits
     are nan there.
