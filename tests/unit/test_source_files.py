@@ -161,7 +161,7 @@ def test_every_script_is_a_job():
     assert [script for script in SCRIPTS if not REPORTS & imported_modules(script)] == []
 
 
-def test_every_module_is_used_by_the_workflow_or_a_command():
+def test_every_module_is_used_by_the_workflow_a_command_or_a_study():
     makefile = (REPOSITORY / "Makefile").read_text(encoding="utf-8")
     used = set(re.findall(r"-m branchcrush\.([a-z_.]+)", makefile))
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -172,6 +172,8 @@ def test_every_module_is_used_by_the_workflow_or_a_command():
     used = used.union(*map(imported_modules, plugin))
     for source in [REPOSITORY / "Snakefile", *REPOSITORY.glob("workflow/**/*.smk")]:
         used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", source.read_text("utf-8")))
+    # What a study makes of its results, by a target of the Makefile.
+    used = used.union(*map(imported_modules, REPOSITORY.glob("studies/*/*.py")))
     assert closure(used) == set(MODULES)
 
 

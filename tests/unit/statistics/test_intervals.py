@@ -217,6 +217,7 @@ def test_one_of_many_intervals_is_of_plain_numbers():
 def test_kinds_of_results_have_random_states_of_their_own():
     # A published interval is that of these states.
     states = {"EXPONENTS": 20, "CONTACTS": 21, "PREDICTORS": 22, "SHARING": 23, "FINDINGS": 24}
+    states |= {"CRUSHED": 25, "CRUSHED_GRAINS": 26}
     assert {kind.name: int(kind) for kind in Resampling} == states
     first, again = Resampling.SHARING.rng(), Resampling.SHARING.rng()
     assert first.random() == again.random() == np.random.default_rng(23).random()
