@@ -9,10 +9,12 @@ import pandas as pd
 import pytest
 
 from branchcrush.lammps.compression import compress
+from branchcrush.lammps.crush import crush
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
+from tests.physics.crushings import loose, rules, variables
 
 STIFFNESS = {"linear": 1.0e6, "hertz": 1.0e9}
 LAWS = {"linear": LinearContact, "hertz": HertzContact}
@@ -130,3 +132,24 @@ def frames():
         return found
 
     return read
+
+
+@pytest.fixture(scope="session")
+def crushed(tmp_path_factory, lammps_inputs):
+    """Return a function that crushes a packing in a folder of its own."""
+
+    def run(packing, given, how, **others):
+        folder = tmp_path_factory.mktemp("crushing")
+        chosen = {"seed": 1, "keep_dumps": "none", **others}
+        return crush(
+            *packing, given, how, inputs=lammps_inputs, folder=folder, log=folder / "log", **chosen
+        )
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def usual(crushed):
+    """Return one crushing that many tests read."""
+    packing = loose()
+    return crushed(packing, variables(packing), rules())
