@@ -1,4 +1,4 @@
-"""The same crushing to the same bytes: twice, stopped and gone on with, and of what cannot break."""
+"""The same crushing to the same bytes: twice, stopped and gone on with, and where none breaks."""
 
 import numpy as np
 import pytest
