@@ -38,6 +38,18 @@ def test_work_is_stored_or_taken_by_what_is_booked(usual):
     assert usual.path["released_by_parents_J"][-1] <= released * (1.0 + 1e-12)
 
 
+def test_what_is_lost_by_the_size_of_the_strain_step_halves_with_it(crushed):
+    packing, excess = loose(), {}
+    for step in (2e-3, 1e-3):
+        path = crushed(packing, variables(packing, strain_step=step), rules(np.inf)).path
+        assert not path["breakages"].any()
+        lost = path["dissipated_rearrangement_J"]
+        assert np.all(path["step_excess_J"][1:] <= lost[1:] * (1.0 + 1e-9))
+        excess[step] = path["step_excess_J"][-1] - path["step_excess_J"][1]
+    assert excess[2e-3] > 0.0
+    assert excess[1e-3] / excess[2e-3] == pytest.approx(0.5, rel=0.2)
+
+
 def test_without_dashpots_all_that_is_taken_is_motion_at_the_stops(crushed):
     packing = loose()
     # Without dashpots a packing comes to rest by its stops alone, and in shorter time steps its

@@ -215,6 +215,7 @@ def _path_columns(accounts, grains, path):
         "dissipated_breakage_J": "breakage",
         "released_by_parents_J": "parents",
         "dissipated_rearrangement_J": "rearrangement",
+        "step_excess_J": "step_excess",
         "exchanged_energy_J": "exchanged",
         "growth_work_J": "growth",
         "stopped_kinetic_energy_J": "stopped",

@@ -181,13 +181,13 @@ class Crushing:
         return CRITERIA[self.rules.criterion].stress(self.rest.sides, self.grains.radius)
 
     def _kept(self):
-        """Return what a strain step is taken back to."""
-        rest = self.rest
-        return rest.number, rest.position, self.session.edge, self.session.read("work")
+        """Return what a strain step is taken back to, and the force on the cell before it."""
+        rest, session = self.rest, self.session
+        return rest.number, rest.position, session.edge, session.read("work"), self._push
 
     def _restore(self, kept):
         """Take back a strain step: grains, cell and work."""
-        number, position, edge, work = kept
+        number, position, edge, work, _ = kept
         session = self.session
         half = f"{edge / 2.0:.17g}"
         cell = " ".join(f"{axis} final -{half} {half}" for axis in "xyz")
@@ -207,8 +207,16 @@ class Crushing:
         self._look()
 
     def _book(self, kept):
-        *_, work = kept
-        self.account.strained(self.session.read("work") - work, self.rest.elastic_energy)
+        *_, edge, work, push = kept
+        # The trapezoidal rule between two packings at rest: the work of dL is the virial dL/L.
+        quasi_static = (push + self._push) / 2.0 * (edge - self.session.edge)
+        self.account.strained(
+            self.session.read("work") - work, self.rest.elastic_energy, quasi_static
+        )
+
+    @property
+    def _push(self):
+        return self.session.read("virial") / self.session.edge
 
     def _cascade(self, saved=None):
         """Let grains break, round after round, until none is overloaded at rest."""

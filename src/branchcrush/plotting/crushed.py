@@ -20,6 +20,8 @@ PARTS: Mapping[str, tuple[str, str]] = {
     "released_by_parents": ("contacts of the broken grains", OTHER),
     "stored": ("stored elastically", MEASURED),
 }
+# Of rearrangement.
+STEP_EXCESS = ("of it, by the size of the strain step", "#b9a3d6")
 _MARKERS = "osD^v<>ph*"
 _DENSITY = r"solid fraction $\phi$ [-]"
 
@@ -165,7 +167,7 @@ def plot_energy(means: Table, ax: Axes | None = None) -> Axes:
     ax = axes(ax)
     # Of a mean over fewer seeds than there are the line would jump.
     full = means[means["seeds"] == means.groupby("halved_step")["seeds"].transform("max")]
-    for name, (label, color) in PARTS.items():
+    for name, (label, color) in {**PARTS, "step_excess": STEP_EXCESS}.items():
         for halved, rows in full.groupby("halved_step"):
             style = {"ls": "--", "lw": 0.9} if halved else {"label": label}
             ax.plot(

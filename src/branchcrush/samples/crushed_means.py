@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from branchcrush.samples.crushed_line import named_mean
-from branchcrush.samples.crushed_path import PARTS
+from branchcrush.samples.crushed_path import PARTS, TOLD
 
 # Quantities of a state of which the mean over seeds is told.
 AVERAGED = (
@@ -23,7 +23,7 @@ AVERAGED = (
     "stress_over_control",
     "dissipated_J_per_m3",
     "compaction_work_J_per_m3",
-    *(f"{part}_share" for part in PARTS),
+    *(f"{part}_share" for part in TOLD),
 )
 
 

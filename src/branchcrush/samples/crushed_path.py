@@ -13,6 +13,8 @@ from branchcrush.samples.measured import EXPONENT
 
 # Parts of the work, of which the shares add up to 1.
 PARTS = ("stored", "released_by_parents", "avalanches", "rearrangement")
+# With what is a part of the last one: it is lost because strain steps have a size.
+TOLD = (*PARTS, "step_excess")
 _OF_PATH = (
     "state",
     "leg",
@@ -86,7 +88,7 @@ def energies(path: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Work and its parts [J], cumulative, and their shares, `PARTS` [-]; nan before the first
+        Work and its parts [J], cumulative, and their shares, `TOLD` [-]; nan before the first
         breakage.
 
     Examples
@@ -94,7 +96,7 @@ def energies(path: pd.DataFrame) -> pd.DataFrame:
     >>> path = pd.DataFrame({
     ...     "breakages": [0, 1], "work_J": [1.0, 5.0], "elastic_energy_J": [0.5, 1.5],
     ...     "released_by_parents_J": [0.0, 1.0], "dissipated_avalanches_J": [0.0, 1.5],
-    ...     "dissipated_rearrangement_J": [0.5, 1.0]})
+    ...     "dissipated_rearrangement_J": [0.5, 1.0], "step_excess_J": [0.1, 0.5]})
     >>> energies(path)[["stored_share", "avalanches_share"]].iloc[1].tolist()
     [0.25, 0.375]
     """
@@ -106,13 +108,14 @@ def energies(path: pd.DataFrame) -> pd.DataFrame:
         "released_by_parents": "released_by_parents_J",
         "avalanches": "dissipated_avalanches_J",
         "rearrangement": "dissipated_rearrangement_J",
+        "step_excess": "step_excess_J",
     }
     work = (path["work_J"] - start["work_J"]).where(broke)
     parts = {name: (path[key] - start[key]).where(broke) for name, key in columns.items()}
     return pd.DataFrame(
         {"work_since_breakage_J": work}
-        | {f"{name}_since_breakage_J": parts[name] for name in PARTS}
-        | {f"{name}_share": parts[name] / work for name in PARTS}
+        | {f"{name}_since_breakage_J": parts[name] for name in TOLD}
+        | {f"{name}_share": parts[name] / work for name in TOLD}
     )
 
 

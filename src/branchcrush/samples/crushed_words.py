@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from branchcrush.samples.crushed_line import YIELDED, named_mean
-from branchcrush.samples.crushed_path import PARTS
+from branchcrush.samples.crushed_path import PARTS, TOLD
 
 _AT_END = (
     "solid_fraction",
@@ -88,7 +88,7 @@ def energy_summary(states: pd.DataFrame, intervals: Mapping[str, Any]) -> dict[s
     whole, half = states[~states["halved_step"]], states[states["halved_step"]]
     end = _last_common(whole)
     told: dict[str, Any] = {}
-    for part in PARTS:
+    for part in TOLD:
         told |= named_mean(f"{part}_share", end[f"{part}_share"].to_list(), intervals)
     driven = end["compaction_work_J_per_m3"] / end["dissipated_J_per_m3"]
     told |= named_mean("compaction_over_dissipated", driven.to_list(), intervals)
@@ -97,7 +97,7 @@ def energy_summary(states: pd.DataFrame, intervals: Mapping[str, Any]) -> dict[s
         shared = set.intersection(*(set(rows["state"]) for rows in same.values()))
     for ending, rows in same.items():
         at = rows[rows["state"] == max(shared)] if len(half) else rows.iloc[:0]
-        for part in PARTS:
+        for part in TOLD:
             told[f"{part}_share{ending}"] = float(at[f"{part}_share"].mean()) if len(at) else None
     return told
 
@@ -161,8 +161,8 @@ def split_sentence(summary: Mapping[str, Any]) -> str:
     if not seeds:
         return (
             "The split of the work is not checked: no seed was crushed again with half the strain "
-            "step (refined_seeds). In other runs rearrangement while straining fell by a third and "
-            "more with it; the sum of all that is lost is the safe number."
+            "step (refined_seeds). What is lost by the size of the strain step is told beside it; "
+            "the sum of all that is lost is the safe number."
         )
     if summary["rearrangement_share_halved"] is None or np.isnan(
         summary["rearrangement_share_halved"]
@@ -173,9 +173,14 @@ def split_sentence(summary: Mapping[str, Any]) -> str:
         f"{_PERCENT * summary[f'{part}_share_halved']:.0f} %"
         for part in PARTS
     ]
+    excess = " and ".join(
+        f"{_PERCENT * summary[f'step_excess_share_{which}']:.0f}"
+        for which in ("same_seeds", "halved")
+    )
     return (
         f"With the strain step and with half of it, {len(seeds)} "
-        f"seed{'s' if len(seeds) > 1 else ''} crushed with both: {'; '.join(changes)}."
+        f"seed{'s' if len(seeds) > 1 else ''} crushed with both: {'; '.join(changes)}; by the "
+        f"size of the strain step alone {excess} %."
     )
 
 

@@ -106,7 +106,9 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
         "crushed_energy": (
             "Of the work since the first breakage "
             f"{_told(s, 'avalanches_share', 100, '%.0f')} % is lost in avalanches, "
-            f"{_told(s, 'rearrangement_share', 100, '%.0f')} % in rearrangement while straining, "
+            f"{_told(s, 'rearrangement_share', 100, '%.0f')} % in rearrangement while straining "
+            f"({_told(s, 'step_excess_share', 100, '%.0f')} % only because strain steps have a "
+            "size: that part vanishes with them), "
             f"{_told(s, 'released_by_parents_share', 100, '%.0f')} % was stored in the contacts "
             f"of the grains that broke, and {_told(s, 'stored_share', 100, '%.0f')} % is stored "
             "at the end."

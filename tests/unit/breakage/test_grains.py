@@ -67,14 +67,15 @@ def test_the_finest_fragment_is_one_of_a_grain_at_the_limit():
 
 def test_the_account_closes_and_counts_rounds_that_end_above():
     account = Account(stored=2.0)
-    account.strained(work=3.0, after=4.0)
+    account.strained(work=3.0, after=4.0, quasi_static=2.5)
     account.broken(after=1.0, parents=0.5, exchanged=0.4, put_in=9.0, breakages=3)
-    account.strained(work=1.0, after=1.5)
+    account.strained(work=1.0, after=1.5, quasi_static=0.75)
     account.broken(after=1.8, parents=0.1, exchanged=0.1, put_in=1.0)
     account.relaxed(after=1.7)
     assert account.work == 6.0 and account.stored == 1.7
     taken = account.breakage + account.rearrangement
     assert account.work - account.stored - taken == pytest.approx(0.0, abs=1e-15)
+    assert account.step_excess == pytest.approx(0.75)
     assert account.avalanches == pytest.approx(account.breakage - 0.6)
     assert (account.rounds, account.breakages, account.rounds_upwards) == (2, 4, 1)
     assert account.largest_rise == pytest.approx(0.3 / 1.5)

@@ -63,6 +63,7 @@ def run(broken=BROKEN, slope=0.5, stopped=np.nan, lost=(0.5, 0.3, 0.2)):
         dissipated_avalanches_J=lost[1] * total,
         dissipated_breakage_J=(lost[0] + lost[1]) * total,
         dissipated_rearrangement_J=rearranged + lost[2] * total,
+        step_excess_J=0.25 * lost[2] * total,
     )
     path["work_J"] = (
         path["elastic_energy_J"]

@@ -47,6 +47,7 @@ def test_the_split_of_the_work_stands_beside_that_of_half_the_step(whole):
         work = table["work_J"].iloc[-1] - table["work_J"].iloc[2]
         share = 3e-3 * (0.2 if name == "whole" else 0.1) / work
         assert whole.summary[f"rearrangement_share{ending}"] == pytest.approx(share)
+        assert whole.summary[f"step_excess_share{ending}"] == pytest.approx(share / 4.0)
     assert sum(whole.summary[f"{part}_share_halved"] for part in PARTS) == pytest.approx(1.0)
     assert any(
         "With the strain step and with half of it, 1 seed" in line
