@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from branchcrush.errors import ConfigError
+from branchcrush.files.blocks import filled, table
 
-_BEGIN, _END = "<!-- made from config.schema.json: {} -->", "<!-- end -->"
 _NOTHING = {"type": "null"}
 # A sentence, and perhaps a unit before its full stop.
 _DESCRIPTION = re.compile(r"(.*?)(?: \[([^\]]+)\])?\.?", re.DOTALL)
@@ -50,13 +50,11 @@ def with_tables(page: str, schema: Mapping[str, Any]) -> str:
     >>> print(with_tables(page, schema).splitlines()[3])
     | `dpi` | Resolution | dots per inch | 300 | 50 up |
     """
-    for name, table in tables(schema).items():
-        begin = _BEGIN.format(name)
-        place = re.compile(f"({re.escape(begin)}).*?({re.escape(_END)})", re.DOTALL)
-        if not place.search(page):
-            raise ConfigError(f"the page has no place for a table: {begin} and {_END}")
-        page = place.sub(lambda found, made=table: f"{found[1]}\n{made}\n{found[2]}", page)
-    return page
+    blocks = {name: [lines] for name, lines in tables(schema).items()}
+    try:
+        return filled(page, blocks, "from config.schema.json")
+    except ValueError as error:
+        raise ConfigError(str(error)) from None
 
 
 def tables(schema: Mapping[str, Any]) -> dict[str, str]:
@@ -235,7 +233,4 @@ def _plain(number):
 
 
 def _table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(
-        f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines
-    )
+    return "\n".join(table(header, list(rows)))
