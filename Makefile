@@ -83,8 +83,9 @@ mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradi
 	$(BIN)/python studies/mixing/compare.py
 	$(MADE) > docs/results/mixing_made.txt
 
-crushing: $(READY) ## grains that break, a star of cases about one: docs/results/crushing_study.csv, an hour on 2 cores
+crushing: $(READY) ## grains that break, a star of cases about one: docs/crushing_study.md, an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/crushing
+	$(BIN)/python studies/crushing/steps.py $(CORES)
 	$(BIN)/python studies/crushing/compare.py
 	$(MADE) > docs/results/crushing_made.txt
 
