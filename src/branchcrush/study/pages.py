@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from jinja2 import Environment, StrictUndefined
+from jinja2 import DictLoader, Environment, StrictUndefined
 
 from branchcrush import __version__
 from branchcrush.energy.estimators import ESTIMATORS
@@ -167,9 +167,21 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     )
 
 
-def page_environment() -> Environment:
-    """Return what every page is rendered with: its filters, and nothing undefined passed over."""
-    environment = Environment(autoescape=True, undefined=StrictUndefined)
+def page_environment(parts: Mapping[str, str] = MappingProxyType({})) -> Environment:
+    """Return what every page is rendered with: its filters, and nothing undefined passed over.
+
+    Parameters
+    ----------
+    parts : mapping of str to str
+        Templates that the page imports or includes, by name, as `viewer_states.viewer_parts`.
+
+    Returns
+    -------
+    Environment
+    """
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, loader=DictLoader(dict(parts))
+    )
     environment.filters |= {
         "answer": yes_or_no,
         "estimate": _estimate,
