@@ -189,7 +189,7 @@ def _fitting(states: list[ViewerState], limit: int) -> tuple[list[ViewerState], 
     last = states[-1]
     grains = len(last.radius)
     of_contact = 5 if last.wide else 3
-    room = limit * 3 // 8 - replace(last, i=[], j=[], force=[]).words
+    room = limit // 4 * 3 // 2 - replace(last, i=[], j=[], force=[]).words
     if room < 0:
         return [], [f"{grains} grains are more than a page can hold; the result files hold them"]
     most = int(room // of_contact)

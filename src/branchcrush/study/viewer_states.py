@@ -1,5 +1,6 @@
 """The states that the page draws, out of the tables of a run."""
 
+from collections.abc import Iterable, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -76,6 +77,49 @@ def compression_grains(
         **{
             name: np.concatenate([column, np.asarray(compressed[name])])
             for name, column in columns.items()
+        },
+    }
+
+
+def dumped_grains(
+    frames: Iterable[Mapping[str, NDArray]], states: Iterable[int]
+) -> dict[str, NDArray]:
+    """Return a row for each grain in each state that LAMMPS dumped.
+
+    Parameters
+    ----------
+    frames : iterable of mapping of columns
+        x, y, z and radius of the grains by their numbers, a frame a state; of
+        `particles.dump.gz`, by `lammps.files.read_dump`.
+    states : iterable of int
+        Numbers of the saved states; where fewer frames were kept they are those of the last.
+
+    Returns
+    -------
+    dict of ndarray
+        state, radius_m, x_m, y_m and z_m; as `compression_grains`.
+
+    Raises
+    ------
+    ValueError
+        When there is no frame, or there are more than states.
+
+    Examples
+    --------
+    >>> one = np.ones(2)
+    >>> grains = dumped_grains([{"x": one, "y": one, "z": one, "radius": one}], [0, 1, 2])
+    >>> grains["state"].tolist()
+    [2, 2]
+    """
+    kept, numbers = list(frames), [int(state) for state in states]
+    if not 0 < len(kept) <= len(numbers):
+        raise ValueError(f"the dump holds {len(kept)} frames of {len(numbers)} saved states")
+    sizes = [len(frame["radius"]) for frame in kept]
+    return {
+        "state": np.repeat(numbers[-len(kept) :], sizes),
+        **{
+            f"{name}_m": np.concatenate([np.asarray(frame[name]) for frame in kept])
+            for name in ("radius", "x", "y", "z")
         },
     }
 

@@ -128,7 +128,7 @@
       if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
       const edge = Math.max(shown.row.edge_m, header.states.at(-1).edge_m);
       // Metres to half the height of the view.
-      const reach = 0.86 * edge / camera.zoom / Math.min(1, width / height);
+      const reach = 0.8 * edge / camera.zoom / Math.min(1, width / height);
       const turn = turned(camera), style = getComputedStyle(figure);
       const n = axis.value === "" ? null : [0, 1, 2].map((k) => turn[3 * Number(axis.value) + k]);
       // Of the two sides the one toward the eye is taken away.
@@ -138,7 +138,7 @@
         turn, scale: [height / width / reach, 1 / reach], deep: 0.35 / shown.row.span_m,
         cut: n ? [...n.map((v) => side * v), side * Number(cut.value) * shown.row.edge_m] : [0, 0, 0, 1],
         grains: control("grains").checked, chains: control("chains").checked,
-        widest: 0.02 * shown.row.edge_m, pixel: 2 * reach / size[1],
+        widest: 0.012 * shown.row.edge_m, pixel: 2 * reach / size[1],
         line: colour(style, "--soft"), chain: colour(style, "--chain"),
       });
       painter.finish();
