@@ -42,7 +42,7 @@ def browser(*flags):
         driver.quit()
 
 
-def open_page(driver, page, width=1300, height=1000, dark=False):
+def open_page(driver, page, width=640, height=1000, dark=False):
     """Open a page in a window of a width, and wait until its first view has come to rest."""
     driver.execute_cdp_cmd(
         "Emulation.setDeviceMetricsOverride",
@@ -58,18 +58,16 @@ def open_page(driver, page, width=1300, height=1000, dark=False):
 
 
 def at_rest(driver, figure="view"):
-    """Wait until a view is drawn, at rest, and drawn no more."""
-    before, until = None, time.monotonic() + 20
+    """Wait until a view is drawn and at rest, and return what it tells of itself."""
+    now, until = {}, time.monotonic() + 20
     while time.monotonic() < until:
         now = driver.execute_script(
             "return {...document.getElementById(arguments[0]).dataset}", figure
         )
-        settled = now.get("drawn") == "still" or (now.get("frames") and now["moving"] == "false")
-        if settled and now == before:
+        if now.get("drawn") == "still" or now.get("busy") == "false":
             return now
-        before = now
-        time.sleep(0.3)
-    raise AssertionError(f"the view does not come to rest: {before}")
+        time.sleep(0.03)
+    raise AssertionError(f"the view does not come to rest: {now}")
 
 
 def picture(driver, figure="view"):

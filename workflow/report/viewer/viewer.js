@@ -108,6 +108,7 @@
 
     function redraw() {
       if (!painter || waiting) return;
+      figure.dataset.busy = true;
       waiting = requestAnimationFrame(() => {
         waiting = 0;
         if (painter) draw();
@@ -117,7 +118,7 @@
     function move() {
       moving = true;
       clearTimeout(rest);
-      rest = setTimeout(() => { moving = false; redraw(); }, 200);
+      rest = setTimeout(() => { moving = false; redraw(); }, 150);
       redraw();
     }
 
@@ -144,7 +145,7 @@
       painter.finish();
       ms = (performance.now() - started) * (moving ? 1 : (window.devicePixelRatio / by) ** 2);
       measure(reach, height);
-      Object.assign(figure.dataset, { frames: ++frames, ms: (performance.now() - started).toFixed(1), moving });
+      Object.assign(figure.dataset, { frames: ++frames, ms: (performance.now() - started).toFixed(1), busy: moving });
     }
 
     function measure(reach, height) {
