@@ -163,7 +163,7 @@ def test_each_colour_mode_and_each_state_is_drawn(opened):
     put(opened, "state", 0)
     assert difference(picture(opened), pictures["generation"]) > 0.005
     told = opened.find_element("css selector", "#view .viewer-state").text
-    assert told == "state 0, loading: φ = 0.250, mean stress 1 MPa, 1 grains, 0 contacts"
+    assert told == "state 0, loading: φ = 0.250, mean stress 1 MPa, 1 grain, 0 contacts"
 
 
 def test_mouse_wheel_keys_and_the_button_turn_and_zoom(opened):

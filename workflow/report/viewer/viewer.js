@@ -16,6 +16,7 @@
     const camera = { ...FIRST };
     const scaleBar = document.createElement("div");
     scaleBar.className = "viewer-scale";
+    // ms: what a picture takes at the screen's own resolution.
     let numbers, shown, painter = null, canvas, waiting = 0, rest = 0, ms = 0, moving = false, frames = 0;
 
     function open() {
@@ -71,7 +72,7 @@
       const stress = row.mean_stress_Pa / 1e6;
       find(".viewer-state").textContent = `state ${row.state}, ${row.label}: φ = ${row.solid_fraction.toFixed(3)}, ` +
         `mean stress ${Math.abs(stress) >= 0.1 ? `${D.number(stress)} MPa` : `${D.number(row.mean_stress_Pa)} Pa`}, ` +
-        `${row.grains} grains, ${row.contacts} contacts`;
+        `${row.grains} grain${row.grains === 1 ? "" : "s"}, ${row.contacts} contact${row.contacts === 1 ? "" : "s"}`;
       slider.setAttribute("aria-valuetext", find(".viewer-state").textContent);
       paint();
     }
@@ -102,7 +103,7 @@
     // While it moves it is drawn coarser where that is slow, at rest finer where that is quick.
     function ratio() {
       const own = window.devicePixelRatio || 1;
-      if (moving) return ms > 60 ? Math.max(own / 2, 0.5) : own;
+      if (moving) return ms > 240 ? own / 4 : ms > 60 ? own / 2 : own;
       return ms > 150 ? own : Math.max(own, 2);
     }
 
@@ -143,7 +144,7 @@
         line: colour(style, "--soft"), chain: colour(style, "--chain"),
       });
       painter.finish();
-      ms = (performance.now() - started) * (moving ? 1 : (window.devicePixelRatio / by) ** 2);
+      ms = (performance.now() - started) * (window.devicePixelRatio / by) ** 2;
       measure(reach, height);
       Object.assign(figure.dataset, { frames: ++frames, ms: (performance.now() - started).toFixed(1), busy: moving });
     }
