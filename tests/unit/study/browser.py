@@ -27,7 +27,8 @@ FLAGS = (
 @contextmanager
 def browser(*flags):
     """Start Chromium, and end it."""
-    found = [shutil.which(name) for name in ("chromium", "chromedriver")]
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    found = [chromium, shutil.which("chromedriver")]
     if None in found:
         pytest.skip("no chromium or no chromedriver: apt-get install chromium chromium-driver")
     options = webdriver.ChromeOptions()

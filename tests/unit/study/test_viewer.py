@@ -1,4 +1,4 @@
-"""What the page is given of a packing: numbers that come back, states that fit, and what is said."""
+"""What the page is given of a packing: numbers that come back, states that fit, what is said."""
 
 import base64
 from dataclasses import replace
@@ -172,7 +172,9 @@ def test_a_state_without_positions_is_left_out_and_the_loose_one_is_filled_in():
     grains = {
         "state": np.repeat([0, 1, 2], 2),
         "generation": np.array([0, 0, 0, 1, 0, 1]),
-        **{name: np.array([np.nan] * 2 + [0.0, 0.4, np.nan, 0.0]) for name in ("x_m", "y_m", "z_m")},
+        **{
+            name: np.array([np.nan] * 2 + [0.0, 0.4, np.nan, 0.0]) for name in ("x_m", "y_m", "z_m")
+        },
         "radius_m": np.array([0.5, 0.25] * 3),
     }
     loose = np.full((2, 3), 0.7)

@@ -155,7 +155,9 @@ def test_each_colour_mode_and_each_state_is_drawn(opened):
         put(opened, "mode", mode)
         pictures[mode] = picture(opened)
         legend = opened.find_element("css selector", "#view .viewer-bar").text
-        assert {"radius": "[mm]", "energy": "[J]", "pressure": "[Pa]"}.get(mode, "further") in legend
+        assert {"radius": "[mm]", "energy": "[J]", "pressure": "[Pa]"}.get(
+            mode, "further"
+        ) in legend
     names = list(pictures)
     for k, name in enumerate(names):
         for other in names[k + 1 :]:

@@ -14,7 +14,8 @@ PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>grai
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <style>body {margin: 0 1rem}</style>
 {% from "viewer.html.jinja" import viewer, viewer_assets %}{{ viewer_assets() }}</head><body>
-{% for name, packed in views %}{{ viewer(name, packed.header, packed.data, still) }}<div style="height: 60rem"></div>
+{% for name, packed in views %}{{ viewer(name, packed.header, packed.data, still) }}
+<div style="height: 60rem"></div>
 {% endfor %}</body></html>"""
 EDGE = 10e-3
 
