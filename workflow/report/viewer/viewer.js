@@ -103,7 +103,7 @@
     // While it moves it is drawn coarser where that is slow, at rest finer where that is quick.
     function ratio() {
       const own = window.devicePixelRatio || 1;
-      if (moving) return ms > 240 ? own / 4 : ms > 60 ? own / 2 : own;
+      if (moving) return ms > 60 ? own / 2 : own;
       return ms > 150 ? own : Math.max(own, 2);
     }
 
