@@ -19,6 +19,7 @@ from branchcrush.config.schema import Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import representativity
+from branchcrush.loading.states import stress_floor
 from branchcrush.loading.targets import Loading, expected_overlap_ratio
 from branchcrush.packings.contact_laws import contact_law
 
@@ -184,19 +185,26 @@ def _grain_problems(settings, grading, grains, allowed):
 
 
 def _stress_problems(sample, grading):
-    """Return whether the largest stress would press the grains into each other."""
+    """Return whether a stress would press the grains into each other, or would be none."""
     target, value = sample.loading.target
     if target != "mean_stress":
         return []
-    radius = float(grading.mass_ppf(0.5))
-    overlap = expected_overlap_ratio(value[-1], radius, contact_law(**sample.contact.model_dump()))
-    if overlap <= _DEEPEST_OVERLAP:
-        return []
-    return [
-        f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
-        f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
-        f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
-    ]
+    radius, law = float(grading.mass_ppf(0.5)), contact_law(**sample.contact.model_dump())
+    floor, problems = stress_floor([grading.moment(1)], law), []
+    if min(value) < floor:
+        problems.append(
+            f"loading.mean_stress = {min(value):g} Pa: below {floor:.3g} Pa grains of this "
+            "stiffness are not told from grains that carry no load: ask for more, or lower the "
+            "stiffness of contact"
+        )
+    overlap = expected_overlap_ratio(value[-1], radius, law)
+    if overlap > _DEEPEST_OVERLAP:
+        problems.append(
+            f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
+            f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
+            f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
+        )
+    return problems
 
 
 def _folder_problems(folder, samples):

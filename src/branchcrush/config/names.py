@@ -46,6 +46,39 @@ def _usable_name(name: Any) -> str:
     return name
 
 
+def distinct_names(sections: dict[str, Any]) -> dict[str, Any]:
+    """Return sections, or refuse names that differ in capitals only.
+
+    Parameters
+    ----------
+    sections : dict
+        By name.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError
+        Two names would be one folder where a file system knows no capitals.
+
+    Examples
+    --------
+    >>> distinct_names({"tiny": 1, "small": 2})
+    {'tiny': 1, 'small': 2}
+    """
+    first: dict[str, str] = {}
+    for name in sections:
+        other = first.setdefault(name.casefold(), name)
+        if other != name:
+            raise refusal(
+                f"{other} and {name} differ in capitals only, and would be one folder on many "
+                "disks: give one of them another name"
+            )
+    return sections
+
+
 SampleName = Annotated[str, BeforeValidator(_usable_name)]
 
 

@@ -30,7 +30,7 @@ from branchcrush.config.fields import (
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.measured import Measured
 from branchcrush.config.messages import problem
-from branchcrush.config.names import NAMES_SCHEMA, SampleName
+from branchcrush.config.names import NAMES_SCHEMA, SampleName, distinct_names
 from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
@@ -231,7 +231,7 @@ class Sample(Section):
 def _not_empty(samples):
     if not samples:
         raise refusal("must hold at least one sample")
-    return samples
+    return distinct_names(samples)
 
 
 class Config(Section):
@@ -247,7 +247,7 @@ class Config(Section):
         EnergySplit(), description="How the energy split is binned, and the intervals found."
     )
     thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
-    measured: dict[SampleName, Measured] = Field(
+    measured: Annotated[dict[SampleName, Measured], AfterValidator(distinct_names)] = Field(
         {},
         description="Materials that a laboratory measured, by names of your own; results go to "
         "results/measured/<name>.",
