@@ -43,6 +43,6 @@ def test_a_crushing_runs_there_too(tmp_path, monkeypatch, lammps_inputs):
 def test_where_no_folder_will_do_what_to_set_is_said(monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", "/no such/${x}")
     monkeypatch.setattr(links.os.path, "isdir", lambda folder: False)
-    with pytest.raises(SimulationError, match=r"set TMPDIR to a folder whose name has no blanks"):
-        with links.linked("/", "/"):
-            pass
+    said = "set TMPDIR to a folder whose name has no blanks"
+    with pytest.raises(SimulationError, match=said), links.linked("/", "/"):
+        pass

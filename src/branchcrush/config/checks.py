@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from branchcrush.config.breakage_checks import breakage_problems
 from branchcrush.config.build import unit_of
 from branchcrush.config.fields import one_line
-from branchcrush.config.grading_files import checked_grading
+from branchcrush.config.grading_files import checked_grading, unread_file
 from branchcrush.config.history import history_loads
 from branchcrush.config.measured_checks import measured_problems
 from branchcrush.config.names import REFINED
@@ -142,6 +142,9 @@ def _history_problems(config):
     """Return what is wrong with the file of a history."""
     if config is None:
         return []
+    file = config.thermodynamics.history.file
+    if file and (problems := unread_file(file, "thermodynamics.history")):
+        return [f"config: {line}" for line in problems]
     try:
         history_loads(config.thermodynamics.history.model_dump())
     except GradingError as error:
