@@ -7,6 +7,8 @@ LAMMPS_INPUTS = ROOT / "lammps_inputs"
 
 
 rule compression:
+    wildcard_constraints:
+        sample=samples_where(lambda name: name not in READ),
     input:
         data=data_files,
     output:

@@ -1,6 +1,5 @@
 """All frames of a packing that another code made: contacts held against grains."""
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -189,8 +188,8 @@ def _together(grains, contacts, match):
         steps = [", ".join(f"{frame.step:g}" for frame in each[:5]) for each in (grains, contacts)]
         raise ReadingError(
             f"{grains[0].where}: grains and contacts have no step in common, grains {steps[0]}, "
-            f"contacts {steps[1]}: dump both at the same steps, or if they are of the same moments say "
-            "packing.match: order"
+            f"contacts {steps[1]}: dump both at the same steps, or if they are of the same moments "
+            "say packing.match: order"
         )
     both = {frame.step for frame, _ in pairs}
     notes = []
@@ -297,22 +296,3 @@ def _same_grains(moments: Sequence[Moment]) -> None:
                 f"({moment.grains.ids.size} and {first.ids.size}): states of one packing have the "
                 "same grains; read each frame as a packing of its own"
             )
-
-
-def natural_order(name: str) -> list:
-    """Return what sorts names of files as a person would: 9 before 10.
-
-    Parameters
-    ----------
-    name : str
-
-    Returns
-    -------
-    list
-
-    Examples
-    --------
-    >>> sorted(["dump.10", "dump.9"], key=natural_order)
-    ['dump.9', 'dump.10']
-    """
-    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
