@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, WithJsonSchema, field_validator
 
 from branchcrush.config.compression import Contact
-from branchcrush.config.fields import Allowed, Section, number, refusal
+from branchcrush.config.fields import Allowed, Number, Section, number, refusal
 from branchcrush.config.units import UNITS
 
 _FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "uN": 1e-6}
@@ -40,7 +40,9 @@ def _listed(value: Any) -> Any:
 
 
 _NAME = {"type": "string", "minLength": 1}
-_FILES_SCHEMA = {"anyOf": [_NAME, {"type": "array", "items": _NAME, "minItems": 1}]}
+_FILES_SCHEMA = {
+    "anyOf": [_NAME, {"type": "array", "items": _NAME, "minItems": 1, "maxItems": 1000}]
+}
 Files = Annotated[
     list[str], BeforeValidator(_listed), Allowed(_FILES), WithJsonSchema(_FILES_SCHEMA)
 ]
@@ -53,10 +55,23 @@ def _three(value: Any) -> Any:
     return value
 
 
-_THREE = {"minItems": 3, "maxItems": 3}
-Vector = Annotated[list[Name], BeforeValidator(_three), Field(json_schema_extra=_THREE)]
+_SOME = {"minItems": 0, "maxItems": 1000}
+_KEYWORDS_SCHEMA = {
+    "type": "array",
+    "items": {"enum": list(KEYWORDS)},
+    "minItems": 1,
+    "maxItems": len(KEYWORDS),
+}
+Keywords = Annotated[list[str], WithJsonSchema(_KEYWORDS_SCHEMA)]
+_OF_THREE = {"type": "array", "minItems": 3, "maxItems": 3}
+Vector = Annotated[
+    list[Name], BeforeValidator(_three), WithJsonSchema({**_OF_THREE, "items": _NAME})
+]
+_COORDINATE = Number(least=-1e6, most=1e6)
 Corner = Annotated[
-    list[number(least=-1e6, most=1e6)], BeforeValidator(_three), Field(json_schema_extra=_THREE)
+    list[number(least=-1e6, most=1e6)],
+    BeforeValidator(_three),
+    WithJsonSchema({**_OF_THREE, "items": _COORDINATE.json_schema()}),
 ]
 
 
@@ -131,14 +146,14 @@ class Packing(Section):
     grain_columns: GrainColumns | None = Field(
         None, description="Names of those of grains: id, x, y, z and radius if left out."
     )
-    keywords: list[str] | None = Field(
+    keywords: Keywords | None = Field(
         None, description="Those of LIGGGHTS's compute pair/gran/local, in any order."
     )
     each_pair: Literal["once", "twice"] = Field(
         "once", description="How often the file has each contact; of mercurydpm always twice."
     )
     wall_ids: list[number(int, least=-(2**31), most=2**31)] = Field(
-        [], description="Ids that are walls, not grains."
+        [], description="Ids that are walls, not grains.", json_schema_extra=_SOME
     )
     cell: Corners | None = Field(
         None, description="Corners of the cell, where the files do not tell it."
@@ -208,7 +223,10 @@ class Packing(Section):
 class ReadSample(Section):
     """Packings that another code made; their grading is that of their grains."""
 
-    packing: Packing = Field(description="Files with grains and contacts.")
+    packing: Packing = Field(
+        description="Files with grains and contacts that another code made, in place of grading, "
+        "grains, loading and seeds; boundary and contact have to be given then."
+    )
     boundary: Literal["walls", "periodic"] = Field(
         description="Whether the cell repeats in all directions, or has walls."
     )
