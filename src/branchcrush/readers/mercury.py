@@ -93,7 +93,7 @@ def read_fstat(path: str | PathLike[str]) -> list[ColumnFrame]:
     >>> line = "0.5 3 7 0 0 0 1e-3 0 2 0 1 0 0 0 0 0"
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "packing.fstat")
-    ...     _ = path.write_text("# 0.5 1\n# 0 0 0 1 1 1\n# 1 1 0 0 0 0\n" + line)
+    ...     _ = path.write_text("# 0.5 1\n# 0 0 0 1 1 1\n# 1 1 0 0 0 0\n" + line + "\n")
     ...     frame = read_fstat(path)[0]
     >>> frame.columns["id2"].tolist(), frame.columns["force"].tolist()
     ([7.0], [[2.0, 0.0, 0.0]])

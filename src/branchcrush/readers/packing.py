@@ -107,6 +107,7 @@ def read_frames(source: Source) -> ReadPacking:
     grains = _numbered(source.grains, _grain_reader(source))
     contacts = _numbered(source.contacts, _contact_reader(source))
     pairs, notes = _together(grains, contacts, source.match)
+    notes += [note for frame in (*grains, *contacts) for note in frame.notes]
     if source.last:
         pairs = pairs[-1:]
     moments, problems = [], []

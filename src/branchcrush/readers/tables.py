@@ -5,7 +5,7 @@ from os import PathLike
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.frames import ColumnFrame
-from branchcrush.readers.texts import lines_of, numbers_of, significant_digits
+from branchcrush.readers.texts import lines_of, numbers_of, significant_digits, text_of
 
 _DELIMITERS = (",", ";", "\t")
 # What export.text and export.textExt of YADE write, by the word after #format.
@@ -44,7 +44,8 @@ def read_columns(path: str | PathLike[str], names: Sequence[str]) -> ColumnFrame
     ...     read_columns(path, ["id2", "fn"]).columns["fn"].tolist()
     [2.5]
     """
-    lines = lines_of(path)
+    text = text_of(path)
+    lines = text.splitlines()
     place = next(n for n, line in enumerate(lines) if line.strip())
     while lines[place].lstrip().startswith("#") and place + 1 < len(lines):
         following = lines[place + 1].split()
@@ -67,7 +68,10 @@ def read_columns(path: str | PathLike[str], names: Sequence[str]) -> ColumnFrame
         block, len(found), str(path), first=place + 2, delimiter=delimiter, used=used
     )
     columns = dict(zip(names, values.T, strict=True))
-    return ColumnFrame(str(path), columns, digits=significant_digits(block, delimiter))
+    # People's own tables often lack it.
+    whole = text.endswith("\n")
+    cut = () if whole else (f"{path}: the last line has no end: is the file whole?",)
+    return ColumnFrame(str(path), columns, digits=significant_digits(block, delimiter), notes=cut)
 
 
 def read_yade_text(path: str | PathLike[str]) -> ColumnFrame:

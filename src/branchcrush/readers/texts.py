@@ -19,8 +19,8 @@ _TRUE, _FALSE = (re.compile(rf"\b{word}\b", re.IGNORECASE) for word in ("true", 
 _LINES_OF_DIGITS = 200
 
 
-def lines_of(path: str | PathLike[str]) -> list[str]:
-    r"""Return the lines of a text file, plain, gzipped or packed by zstd or bzip2.
+def text_of(path: str | PathLike[str]) -> str:
+    r"""Return the text of a file, plain, gzipped or packed by zstd or bzip2.
 
     Parameters
     ----------
@@ -28,8 +28,7 @@ def lines_of(path: str | PathLike[str]) -> list[str]:
 
     Returns
     -------
-    list of str
-        Without their ends.
+    str
 
     Raises
     ------
@@ -42,8 +41,8 @@ def lines_of(path: str | PathLike[str]) -> list[str]:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder, "grains.txt")
     ...     _ = path.write_text("x y z\n1 2 3\n")
-    ...     lines_of(path)
-    ['x y z', '1 2 3']
+    ...     text_of(path)
+    'x y z\n1 2 3\n'
     """
     kind = _PACKED.get(Path(path).suffix.lower())
     try:
@@ -62,9 +61,45 @@ def lines_of(path: str | PathLike[str]) -> list[str]:
         raise ReadingError(
             f"{path}: cannot be read or unpacked ({error}): is it whole? write it again"
         ) from None
-    lines = text.splitlines()
-    if not any(line.strip() for line in lines):
+    if not text.strip():
         raise ReadingError(f"{path}: is empty")
+    return text
+
+
+def lines_of(path: str | PathLike[str]) -> list[str]:
+    r"""Return the lines of a text file of which each has an end, as codes write them.
+
+    Parameters
+    ----------
+    path : path-like
+        As for `text_of`.
+
+    Returns
+    -------
+    list of str
+        Without their ends.
+
+    Raises
+    ------
+    ReadingError
+        As `text_of`, and when the last line has no end.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "grains.txt")
+    ...     _ = path.write_text("x y z\n1 2 3\n")
+    ...     lines_of(path)
+    ['x y z', '1 2 3']
+    """
+    text = text_of(path)
+    lines = text.splitlines()
+    if not text.endswith("\n"):
+        raise ReadingError(
+            f"{path}: the file breaks off: its last line, {lines[-1][-40:]!r}, has no end; write "
+            "it again, whole"
+        )
     return lines
 
 

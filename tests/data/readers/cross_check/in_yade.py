@@ -1,3 +1,4 @@
+# ruff: noqa: F403, F405
 """A packing at rest in YADE, and what YADE writes of it."""
 
 import sys
