@@ -90,7 +90,9 @@ class ContactColumns(Section):
     overlap: Name | None = Field(None, description="Overlap, positive where grains touch.")
     gap: Name | None = Field(None, description="Gap, negative where grains touch.")
     point: Vector | None = Field(None, description="Point of contact; needed of walls alone.")
-    real: Name | None = Field(None, description="0 of virtual contacts, which are left out.")
+    real: Name | None = Field(
+        None, description="Column that is 0 of virtual contacts, which are left out."
+    )
 
 
 class GrainColumns(Section):
@@ -112,8 +114,8 @@ class GrainColumns(Section):
 class Corners(Section):
     """Two corners of a cell, in the unit of length."""
 
-    low: Corner = Field(description="Lower corner.", examples=[[0, 0, 0]])
-    high: Corner = Field(description="Upper corner.", examples=[[1, 1, 1]])
+    low: Corner = Field(description="Lower corner [unit of length].", examples=[[0, 0, 0]])
+    high: Corner = Field(description="Upper corner [unit of length].", examples=[[1, 1, 1]])
 
     @field_validator("high")
     @classmethod

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.cells import Cell
+from branchcrush.readers.forces import attraction, normal_forces, wall_forces
 from branchcrush.readers.pairs import each_once
 from branchcrush.readers.places import grains_at, overlapping_pairs
 from branchcrush.readers.roles import Grains, some
@@ -115,8 +116,8 @@ def matched(
     overlap = pairs.get("overlap", touch)
     smaller = np.minimum(grains.radii[i], grains.radii[j])
     problems += _misplaced(grains, i, j, touch, overlap, smaller, error)
-    force, normal, share = _forces(pairs, vector, length)
-    problems += _attraction(grains, i, j, normal)
+    force, normal, share = normal_forces(pairs, vector, length)
+    problems += attraction(grains, i, j, normal)
     if problems:
         raise _refused(where, problems)
     kept, swapped, found = each_once(grains, i, j, vector, normal, how.each_pair, smaller)
@@ -135,7 +136,9 @@ def matched(
         raise _refused(where, problems)
     if lacking:
         counts["pairs that just overlap and have no contact"] = lacking
-    walls = _walls(grains, {name: each[at_wall] for name, each in columns.items()}, first[at_wall])
+    walls = wall_forces(
+        grains, {name: each[at_wall] for name, each in columns.items()}, first[at_wall]
+    )
     ids = columns["id2"][at_wall].astype(int) if "id2" in columns else np.zeros(0, int)
     net = np.zeros((grains.ids.size, 3))
     np.add.at(net, i, -force)
@@ -288,41 +291,6 @@ def _misplaced(grains, i, j, touch, overlap, smaller, error):
     return problems
 
 
-def _forces(columns, vector, length):
-    """Return force on j (vector), its normal part (repulsion positive), and the tangential share.
-
-    Codes differ in which of two grains a force acts on; one sign holds for the whole file.
-    """
-    unit = vector / length[:, None]
-    if "force" in columns:
-        along = np.einsum("ij,ij->i", columns["force"], unit)
-    else:
-        along = columns["normal_force"]
-    sign = 1.0 if along.sum() >= 0 else -1.0
-    normal = sign * along
-    if "normal_force" in columns and "force" in columns:
-        scalar = columns["normal_force"]
-        normal = scalar if scalar.sum() >= 0 else -scalar
-    if "force" not in columns:
-        return unit * normal[:, None], normal, 0.0
-    force = sign * columns["force"]
-    across = np.linalg.norm(force - unit * (sign * along)[:, None], axis=1).sum()
-    return force, normal, float(across / max(np.abs(normal).sum(), np.finfo(float).tiny))
-
-
-def _attraction(grains, i, j, normal):
-    pulling = normal < 0
-    if not pulling.any():
-        return []
-    worst = int(np.argmin(normal))
-    return [
-        f"{int(pulling.sum())} of {pulling.size} contacts pull, such as that of grains "
-        f"{grains.ids[i[worst]]} and {grains.ids[j[worst]]} by {-normal[worst]:.3g} N, where most "
-        "push: the energies of the contact laws here are of repulsion alone; damped or cohesive "
-        "forces have to be gone"
-    ]
-
-
 def _unlisted(grains, cell, i, j, overlap, error):
     """Return how many pairs just overlap and have no contact, and the problem if some clearly do.
 
@@ -341,26 +309,3 @@ def _unlisted(grains, cell, i, j, overlap, error):
         f"{grains.ids[a[worst]]} and {grains.ids[b[worst]]} by {depth[worst]:.3g} m: are contacts "
         "missing, or of another moment, or cell and boundary other than they were?"
     ]
-
-
-def _walls(grains, columns, grain):
-    """Return direction, overlap and normal force of contacts with walls."""
-    if not grain.size:
-        return np.zeros((0, 3)), np.zeros(0), np.zeros(0)
-    if "force" in columns:
-        # A wall pushes: its normal part is what matters between grains without friction.
-        size = np.linalg.norm(columns["force"], axis=1)
-        direction = columns["force"] / size[:, None]
-    if "point" in columns:
-        towards = columns["point"] - grains.positions[grain]
-        direction = towards / np.linalg.norm(towards, axis=1)[:, None]
-    elif "force" not in columns:
-        raise ReadingError(
-            "contacts with walls need a force of three columns, or the point of contact: give "
-            "columns.force or columns.point"
-        )
-    if "force" in columns:
-        normal = np.abs(np.einsum("ij,ij->i", columns["force"], direction))
-    else:
-        normal = np.abs(columns["normal_force"])
-    return direction, columns.get("overlap", np.zeros(grain.size)), normal

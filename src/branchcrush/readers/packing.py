@@ -1,59 +1,26 @@
 """All frames of a packing that another code made: contacts held against grains."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
-from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.cells import Cell
-from branchcrush.readers.dumps import read_dump
 from branchcrush.readers.frames import ColumnFrame
-from branchcrush.readers.liggghts import DEFAULT, named_columns
+from branchcrush.readers.layouts import (
+    Source,
+    contact_reader,
+    contact_roles,
+    grain_reader,
+    grain_roles,
+)
 from branchcrush.readers.matching import Matching, Touching, matched
-from branchcrush.readers.mercury import read_data, read_fstat
-from branchcrush.readers.roles import Grains, Roles, grains_of, in_roles, names_of
-from branchcrush.readers.tables import read_columns, read_yade_text
-from branchcrush.readers.vtk import read_vtk
+from branchcrush.readers.roles import Grains, grains_of, in_roles
 
-FORMATS = ("lammps", "liggghts", "yade", "mercurydpm", "columns")
-_XYZ = {"position": ("x", "y", "z")}
-GRAINS: Roles = {"id": "id", **_XYZ, "radius": "radius"}
-# What each code calls the columns of its contacts, where it names them itself.
-CONTACTS: Mapping[str, Roles] = {
-    "mercurydpm": {
-        name: name for name in ("id1", "id2", "point", "overlap", "normal_force", "force")
-    },
-    "yade": {"id1": "id1", "id2": "id2", "normal_force": "fn"},
-    "columns": {"id1": "id1", "id2": "id2", "force": ("fx", "fy", "fz")},
-}
 # A radius that differs by more is another grain's.
 _SAME_RADIUS = 1e-4
-
-
-@dataclass(frozen=True, kw_only=True)
-class Source:
-    """Where the grains and contacts of one packing are, and how its files are to be read."""
-
-    format: str  # one of `FORMATS`
-    grains: Sequence[str | PathLike[str]]  # files, in the order of their frames
-    contacts: Sequence[str | PathLike[str]]
-    periodic: bool  # whether the cell repeats where its file does not tell
-    columns: Roles | None = None  # of contacts; None for those of the format
-    grain_columns: Roles | None = None
-    keywords: Sequence[str] = DEFAULT  # of LIGGGHTS's compute
-    each_pair: str = "once"
-    wall_ids: tuple[int, ...] = ()
-    low: Sequence[float] | None = None  # corners of the cell, where the file has none
-    high: Sequence[float] | None = None
-    match: Literal["steps", "order"] = "steps"  # what brings grains and contacts together
-    last: bool = False  # whether only the last frame is wanted
-    length: float = 1.0  # unit of lengths [m]
-    force: float = 1.0  # unit of forces [N]
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,9 +61,9 @@ def read_frames(source: Source) -> ReadPacking:
 
     Examples
     --------
-    >>> import tempfile
+    >>> import pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     grains, contacts = Path(folder, "balls.csv"), Path(folder, "contacts.csv")
+    ...     grains, contacts = (pathlib.Path(folder, name) for name in ("balls", "contacts"))
     ...     _ = grains.write_text("id,x,y,z,radius\n4,1,2,2,0.5\n9,1.9,2,2,0.5\n")
     ...     _ = contacts.write_text("id1,id2,fx,fy,fz\n9,4,3,0,0\n")
     ...     read = read_frames(Source(format="columns", grains=[grains], contacts=[contacts],
@@ -104,8 +71,8 @@ def read_frames(source: Source) -> ReadPacking:
     >>> read.moments[0].touching.normal_force.tolist()
     [3.0]
     """
-    grains = _numbered(source.grains, _grain_reader(source))
-    contacts = _numbered(source.contacts, _contact_reader(source))
+    grains = _numbered(source.grains, grain_reader(source))
+    contacts = _numbered(source.contacts, contact_reader(source))
     pairs, notes = _together(grains, contacts, source.match)
     notes += [note for frame in (*grains, *contacts) for note in frame.notes]
     if source.last:
@@ -141,36 +108,6 @@ def _numbered(files, reader):
             "into one file?"
         )
     return sorted(frames, key=lambda frame: frame.step)
-
-
-def _grain_reader(source: Source) -> Callable[[str | PathLike[str]], list[ColumnFrame]]:
-    """Return what reads the frames of a file of grains."""
-    names = names_of(source.grain_columns or GRAINS)
-    return {
-        "lammps": read_dump,
-        "liggghts": read_dump,
-        "yade": lambda file: [read_vtk(file) if _is_vtk(file) else read_yade_text(file)],
-        "mercurydpm": read_data,
-        "columns": lambda file: [read_columns(file, names)],
-    }[source.format]
-
-
-def _contact_reader(source: Source) -> Callable[[str | PathLike[str]], list[ColumnFrame]]:
-    """Return what reads the frames of a file of contacts."""
-    names = names_of(source.columns or CONTACTS.get(source.format, {}))
-    return {
-        "lammps": read_dump,
-        "liggghts": lambda file: [
-            named_columns(frame, source.keywords) for frame in read_dump(file)
-        ],
-        "yade": lambda file: [read_vtk(file) if _is_vtk(file) else read_columns(file, names)],
-        "mercurydpm": read_fstat,
-        "columns": lambda file: [read_columns(file, names)],
-    }[source.format]
-
-
-def _is_vtk(file):
-    return ".vtk" in Path(file).suffixes
 
 
 def _together(grains, contacts, match):
@@ -209,7 +146,7 @@ def _together(grains, contacts, match):
 
 def _moment(one: ColumnFrame, other: ColumnFrame, source: Source) -> Moment:
     """Return the state that a frame of grains and one of contacts make."""
-    grains = grains_of(one, _grain_roles(one, source), source.length)
+    grains = grains_of(one, grain_roles(one, source), source.length)
     cell = _cell(one, other, source)
     digits = min(one.digits, 17)
     how = Matching(
@@ -219,48 +156,13 @@ def _moment(one: ColumnFrame, other: ColumnFrame, source: Source) -> Moment:
         source.length,
         source.force,
     )
-    columns = in_roles(other, _contact_roles(other, source)) if other.rows else _no_contacts()
+    columns = in_roles(other, contact_roles(other, source)) if other.rows else _no_contacts()
     touching = matched(grains, columns, cell, how, other.where, digits)
     return Moment(one.where, one.step, grains, cell, touching, digits)
 
 
 def _no_contacts() -> dict[str, NDArray]:
     return {"id1": np.zeros(0), "id2": np.zeros(0), "normal_force": np.zeros(0)}
-
-
-def _grain_roles(frame: ColumnFrame, source: Source) -> Roles:
-    """Return which columns of the grains are what; LAMMPS has radius or diameter."""
-    if source.grain_columns:
-        return source.grain_columns
-    roles = dict(GRAINS)
-    if "radius" not in frame.columns and "diameter" in frame.columns:
-        del roles["radius"]
-        roles["diameter"] = "diameter"
-    if source.format == "yade" and "id" not in frame.columns:
-        del roles["id"]
-    return roles
-
-
-def _contact_roles(frame: ColumnFrame, source: Source) -> Roles:
-    """Return which columns of the contacts are what."""
-    if source.columns:
-        if {"start", "end"} <= set(frame.columns) and "id1" not in source.columns:
-            return {"start": "start", "end": "end"} | dict(source.columns)
-        return source.columns
-    if source.format == "lammps":
-        raise ReadingError(
-            f"{frame.where}: packing.columns is needed, since the columns of a dump local are the "
-            f"user's own; it has {', '.join(frame.columns)}"
-        )
-    if source.format == "liggghts":
-        known = ("start", "end", "id1", "id2", "overlap", "point")
-        roles = {name: name for name in known if name in frame.columns}
-        force = next((k for k in ("force", "force_normal") if k in frame.columns), None)
-        return roles | ({"force": force} if force else {})
-    if {"start", "end"} <= set(frame.columns):  # of YADE's VTKExporter
-        force = next((name for name in ("forceN", "fn") if name in frame.columns), "forceN")
-        return {"start": "start", "end": "end", "normal_force": force}
-    return CONTACTS[source.format]
 
 
 def _cell(one: ColumnFrame, other: ColumnFrame, source: Source) -> Cell:

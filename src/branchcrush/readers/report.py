@@ -35,7 +35,8 @@ def reading_report(
 
     Examples
     --------
-    >>> from branchcrush.readers.packing import Source, read_frames
+    >>> from branchcrush.readers.layouts import Source
+    >>> from branchcrush.readers.packing import read_frames
     >>> import pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     grains, contacts = (pathlib.Path(folder, name) for name in ("balls", "contacts"))

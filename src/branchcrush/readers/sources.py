@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from branchcrush.readers.packing import Source
+from branchcrush.readers.layouts import Source
 
 # Keys of the settings that are taken as they are.
 _SAME = ("format", "columns", "grain_columns", "keywords", "each_pair", "match", "length", "force")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from branchcrush.readers.packing import Source
+from branchcrush.readers.layouts import Source
 
 DATA = Path(__file__).parents[2] / "data" / "readers"
 LOCAL = {"id1": "c_id[1]", "id2": "c_id[2]", "force": ["c_f[3]", "c_f[4]", "c_f[5]"]}

@@ -8,7 +8,8 @@ import pytest
 
 from branchcrush.errors import ReadingError
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
-from branchcrush.readers.packing import Source, read_frames
+from branchcrush.readers.layouts import Source
+from branchcrush.readers.packing import read_frames
 from branchcrush.readers.report import reading_report
 from branchcrush.readers.states import packing_tables
 from tests.unit.readers.conftest import CASES, DATA, source_of_case

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from branchcrush.packings.contact_laws import LinearContact
-from branchcrush.readers.packing import Source, read_frames
+from branchcrush.readers.layouts import Source
+from branchcrush.readers.packing import read_frames
 from branchcrush.readers.report import reading_report
 from branchcrush.readers.states import packing_tables
 from tests.unit.readers.conftest import DATA
