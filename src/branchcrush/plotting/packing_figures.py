@@ -95,8 +95,11 @@ def draw_packing(
         last_edge = end["volume_m3"] ** (1 / 3)
         plot_packing(positions, compressed["radius_m"].to_numpy(), last_edge, **scale, ax=after)
         first = loading_path["solid_fraction"].iloc[0]
-        before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
-        after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")
+        # Of a packing that another code made no work is known in any state.
+        read = loading_path["work_J"].isna().all()
+        words = ("first state", "densest state") if read else ("placed at random", "compressed")
+        before.set_title(rf"{words[0]}, $\phi$ = {first:.3f}")
+        after.set_title(rf"{words[1]}, $\phi$ = {end['solid_fraction']:.3f}")
     return before.figure
 
 
