@@ -68,7 +68,9 @@ def history_files(wildcards):
 
 def samples_where(kept):
     """Return a constraint of the wildcard `sample` to some of all samples."""
-    return "|".join(re.escape(name) for name in [*SAMPLES, *REFINED_SAMPLES] if kept(name)) or "(?!)"
+    return (
+        "|".join(re.escape(name) for name in [*SAMPLES, *REFINED_SAMPLES] if kept(name)) or "(?!)"
+    )
 
 
 def packing_files(kind):

@@ -3,8 +3,6 @@
 
 
 rule read_packing:
-    wildcard_constraints:
-        sample=samples_where(lambda name: name in READ),
     input:
         grains=packing_files("grains"),
         contacts=packing_files("contacts"),
@@ -19,6 +17,8 @@ rule read_packing:
         record="results/{sample}/seed_{seed}/made.json",
     log:
         "logs/{sample}/seed_{seed}/read_packing.log",
+    wildcard_constraints:
+        sample=samples_where(lambda name: name in READ),
     conda:
         "../envs/branchcrush.yaml"
     params:
@@ -29,8 +29,6 @@ rule read_packing:
 
 
 rule read_radii:
-    wildcard_constraints:
-        sample=samples_where(lambda name: name in READ),
     input:
         packings=of_all_seeds("packing.npz"),
     output:
@@ -38,6 +36,8 @@ rule read_radii:
         record="results/{sample}/made/read_radii.json",
     log:
         "logs/{sample}/read_radii.log",
+    wildcard_constraints:
+        sample=samples_where(lambda name: name in READ),
     conda:
         "../envs/branchcrush.yaml"
     params:

@@ -58,7 +58,7 @@ rule packing_figures:
         "../envs/branchcrush.yaml"
     params:
         code=code("packing_figures"),
-        sample=section("grading"),
+        sample=section("packing", "grading"),
         tables=NETWORK_TABLES,
         dpi=SETTINGS.figures.dpi,
     script:
