@@ -43,12 +43,12 @@ def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     assert any("packings 1, 2: positions have" in note for note in notes)
     fit = read_json(results / "energy_split.json")
     assert 1.0 < fit["exponent"] < 5.0 and fit["seeds"] == 2
-    # The grading is that of the grains: the same at every size as what is realised.
-    grading = read_table(results / "grading.csv")
-    assert read_json(results / "grading.json")["representativity"]["grains"] == 200
+    # The grading is that of the grains.
+    grading = read_json(results / "grading.json")
+    assert grading["representativity"]["grains"] == 200
     radii = read_table(results / "radii.csv")["radius_m"]
     assert len(radii) == 400
-    assert grading["diameter_m"].max() == pytest.approx(2.0 * radii.max())
+    assert grading["target"]["D_max_m"] == pytest.approx(2.0 * radii.max())
     shared = read_json(results / "sharing.json")["end"]
     assert shared["stress"] and shared["forces"] and "reason" not in shared
     for path in (results / "seed_1").iterdir():
