@@ -13,6 +13,10 @@ class GradingError(BranchcrushError):
     """A grading or its file is not usable. The message has one line for each problem."""
 
 
+class ReadingError(BranchcrushError):
+    """Files that another code wrote are not usable. The message has one line for each problem."""
+
+
 class PackingError(BranchcrushError):
     """The grains cannot be placed without overlap."""
 

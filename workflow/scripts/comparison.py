@@ -17,5 +17,5 @@ with recorded_job(snakemake):
     origin = study_provenance(samples)
     write_table(snakemake.output.table, rows, origin)
     seeds = {name: sample["seeds"] for name, sample in samples.items()}
-    package = data_package(seeds, params.run_again, params.measured, params.breaking)
+    package = data_package(seeds, params.run_again, params.measured, params.breaking, params.read)
     write_json(snakemake.output.package, package, origin)

@@ -14,6 +14,7 @@ from branchcrush.config.grading_files import checked_grading, unread_file
 from branchcrush.config.history import history_loads
 from branchcrush.config.measured_checks import measured_problems
 from branchcrush.config.names import REFINED
+from branchcrush.config.packing_files import packing_problems
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
@@ -117,6 +118,8 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     """
     if not isinstance(section, dict):
         return []
+    if "packing" in section:
+        return packing_problems(section["packing"])
     grading, problems = checked_grading(section.get("grading"))
     if grading is None:
         return problems

@@ -173,6 +173,11 @@ def _resolved(root, value):
     if len(kinds) == 1 and {"$ref", "oneOf"} & kinds[0].keys():
         others = {key: other for key, other in value.items() if key != "anyOf"}
         return {**_resolved(root, kinds[0]), **others}
+    if "oneOf" in value and "discriminator" not in value:
+        # Forms that their keys tell apart: those of the first, and what others have besides.
+        first, *others = (_resolved(root, kind) for kind in value["oneOf"])
+        more = {key: each for other in others for key, each in other["properties"].items()}
+        return {**first, "properties": first["properties"] | {**more, **first["properties"]}}
     if "$ref" not in value:
         return value
     return {**root["$defs"][value["$ref"].rpartition("/")[2]], **value}
