@@ -11,7 +11,7 @@ EDGE, FOLDER = float(sys.argv[1]), sys.argv[2]
 O.materials.append(FrictMat(young=1e9, poisson=0.3, frictionAngle=0.0, density=2500.0))
 O.periodic = True
 O.cell.setBox(EDGE, EDGE, EDGE)
-for x, y, z, radius in np.loadtxt("/tmp/cross_check/grains.txt"):
+for x, y, z, radius in np.loadtxt("grains.txt"):
     O.bodies.append(utils.sphere((x, y, z), radius))
 stiffness = MatchMaker(algo="val", val=1e6)
 O.engines = [

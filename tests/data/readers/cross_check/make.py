@@ -6,6 +6,7 @@ needs the Debian packages yade and liggghts; the tests read only what it wrote.
 """
 
 import subprocess
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ STIFFNESS = 1e6
 GRAINS = 200
 
 
-def main():
+def main(folder: Path) -> None:
     """Compress a packing, and let both codes bring it to rest."""
     rng = np.random.default_rng(7)
     radii = sampled_radii(uniform(4e-4, 1e-3), GRAINS, "random", rng)
@@ -42,13 +43,13 @@ def main():
         edge,
         variables,
         inputs=ROOT / "lammps_inputs",
-        folder="/tmp/cross_check",
-        log="/tmp/cross_check/log.lammps",
+        folder=folder,
+        log=folder / "log.lammps",
         keep_dumps="none",
     )
     grains = np.column_stack([tables.compressed[name] for name in ("x_m", "y_m", "z_m")])
     last = cube_edge(radii, float(tables.path["solid_fraction"][-1]))
-    np.savetxt("/tmp/cross_check/grains.txt", np.column_stack([grains, radii]), fmt="%.17g")
+    np.savetxt(folder / "grains.txt", np.column_stack([grains, radii]), fmt="%.17g")
     end = tables.contacts["state"] == tables.path["state"][-1]
     np.savetxt(
         HERE / "lammps.csv",
@@ -59,17 +60,21 @@ def main():
         comments="",
     )
     (HERE / "edge.txt").write_text(f"{last!r}\n")
-    write_data_file("/tmp/cross_check/packing.data", grains, radii, last)
-    text = Path("/tmp/cross_check/packing.data").read_text()
+    data = folder / "packing.data"
+    write_data_file(data, grains, radii, last)
+    text = data.read_text()
     # LIGGGHTS knows no comment after the word Atoms.
-    Path("/tmp/cross_check/packing.data").write_text(
+    data.write_text(
         text.replace("Atoms # sphere  (id type diameter density x y z)", "Atoms").replace(
             " 1.0 ", " 2500.0 ", GRAINS
         )
     )
-    subprocess.run(["yade", "-n", "-x", "-j1", HERE / "in_yade.py", str(last), HERE], check=True)
-    subprocess.run(["liggghts", "-in", HERE / "in.liggghts", "-log", "none"], cwd=HERE, check=True)
+    yade = ["yade", "-n", "-x", "-j1", HERE / "in_yade.py", str(last), HERE]
+    subprocess.run(yade, cwd=folder, check=True)
+    liggghts = ["liggghts", "-in", HERE / "in.liggghts", "-log", "none", "-var", "data", data]
+    subprocess.run(liggghts, cwd=HERE, check=True)
 
 
 if __name__ == "__main__":
-    main()
+    with tempfile.TemporaryDirectory() as scratch:
+        main(Path(scratch))
