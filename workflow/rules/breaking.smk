@@ -8,6 +8,8 @@ CRUSHING_TABLES = {
     "gradings": "crushing_gradings",
     "line": "crushing_line",
     "beside": "crushing_beside_forms",
+    "predicted": "crushing_predicted",
+    "beside_predicted": "crushing_beside_predicted",
 }
 CRUSHING_FIGURES = [
     "crushed_line",
@@ -15,6 +17,7 @@ CRUSHING_FIGURES = [
     "crushed_energy",
     "crushed_measures",
     "crushed_forms",
+    "crushed_predicted",
     "crushed_packing",
 ]
 GRAINS_FIGURES = ["who_breaks", "split_of_crushed"]

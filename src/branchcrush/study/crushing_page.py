@@ -27,6 +27,8 @@ class CrushingPage:
         `crushing_means.csv` and `crushing_beside_forms.csv`.
     grains : sequence of str
         Sentences of `crushed_grains.json`, on who breaks and how energy is split meanwhile.
+    predicted : sequence of str
+        Sentences of `crushing_predicted.json`, on what is predicted without a simulation.
     """
 
     name: str
@@ -35,11 +37,12 @@ class CrushingPage:
     means: Table
     beside: Table
     grains: Sequence[str] = ()
+    predicted: Sequence[str] = ()
 
     @property
     def leads(self) -> dict[str, str]:
         """One plain sentence for each figure, by its name."""
-        return leads(self.summary)
+        return {**leads(self.summary), "crushed_predicted": " ".join(self.predicted)}
 
     @property
     def forms(self) -> list[dict[str, Any]]:
