@@ -21,6 +21,7 @@ OF_SAMPLE = (
     "crushing_states.csv",
     "crushing_means.csv",
     "crushing_gradings.csv",
+    "crushing_lengths.csv",
     "crushing_line.csv",
     "crushing_beside_forms.csv",
     "crushing.json",
@@ -51,6 +52,7 @@ OF_SEED = (
 FIGURES = (
     "crushed_line",
     "crushed_gradings",
+    "crushed_lengths",
     "crushed_energy",
     "crushed_measures",
     "crushed_forms",

@@ -6,6 +6,7 @@ CRUSHING_TABLES = {
     "states": "crushing_states",
     "means": "crushing_means",
     "gradings": "crushing_gradings",
+    "lengths": "crushing_lengths",
     "line": "crushing_line",
     "beside": "crushing_beside_forms",
     "predicted": "crushing_predicted",
@@ -14,6 +15,7 @@ CRUSHING_TABLES = {
 CRUSHING_FIGURES = [
     "crushed_line",
     "crushed_gradings",
+    "crushed_lengths",
     "crushed_energy",
     "crushed_measures",
     "crushed_forms",

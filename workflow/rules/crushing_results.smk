@@ -16,6 +16,7 @@ rule crushing_results:
         states=table("crushing_states", "every state of every crushing: grading, energies, strain"),
         means=table("crushing_means", "means over the seeds along the crushing"),
         gradings=table("crushing_gradings", "gradings at stages of crushing"),
+        lengths=table("crushing_lengths", "branch lengths at stages of crushing"),
         line=table("crushing_line", "the compression line, and the one of the gradings alone"),
         beside=table("crushing_beside_forms", "what every form of the model says of the crushing"),
         summary="results/{sample}/crushing.json",

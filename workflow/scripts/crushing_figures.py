@@ -2,6 +2,7 @@
 
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.plotting import crushed_figures as figures
+from branchcrush.plotting.crushed_lengths import draw_lengths
 from branchcrush.plotting.crushing_predicted import draw_crushing_predicted
 from branchcrush.records import recorded_job
 
@@ -14,6 +15,7 @@ with recorded_job(snakemake):
 
     figures.draw_line(output.crushed_line, dpi, tables, controls, summary)
     figures.draw_gradings(output.crushed_gradings, dpi, tables["gradings"], summary)
+    draw_lengths(output.crushed_lengths, dpi, tables["lengths"], summary)
     figures.draw_energy(output.crushed_energy, dpi, tables["means"], summary)
     figures.draw_measures(output.crushed_measures, dpi, tables["means"], tables["beside"], summary)
     figures.draw_forms(output.crushed_forms, dpi, tables["means"], tables["beside"], controls)

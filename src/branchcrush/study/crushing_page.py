@@ -78,8 +78,8 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
     if not s["breakages"]:
         none = "No grain broke."
         return dict.fromkeys(
-            ("crushed_line", "crushed_gradings", "crushed_energy", "crushed_measures"), none
-        ) | {"crushed_forms": none, "crushed_packing": none}
+            ("crushed_line", "crushed_gradings", "crushed_lengths", "crushed_energy"), none
+        ) | {"crushed_measures": none, "crushed_forms": none, "crushed_packing": none}
     b = s["size_exponent"]
     by_alpha = (
         ""
@@ -104,6 +104,15 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
                 else f"; the number of those larger than d falls as a power of d, with "
                 f"α = {_told(s, 'number_exponent')}; the limiting grading has "
                 f"{s['ultimate_alpha']:g}."
+            )
+        ),
+        "crushed_lengths": (
+            f"At the end a branch is {_told(s, 'final_branch_over_diameter')} times as long as the "
+            "mean grain diameter, where Eq. 4, any two grains alike, says 1 of every grading"
+            + (
+                "."
+                if _missing(s["final_branch_over_diameter_by_rods"])
+                else f", and rods that push say {s['final_branch_over_diameter_by_rods']:.2f}."
             )
         ),
         "crushed_energy": (
