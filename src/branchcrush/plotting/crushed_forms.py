@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from branchcrush.branches.crushing_forms import FORM_LABELS
@@ -33,7 +34,9 @@ def plot_measures(means: Table, beside: Table, ax: Axes | None = None) -> Axes:
     ):
         _points(ax, means, name, 1.0, marker, label)
     _forms(ax, beside, "crushing", 1.0)
-    ax.set(xlabel=_DENSITY, ylabel="C or B [-]", ylim=(0.0, 1.1))
+    # C by numbers and B may pass 1, for there are fragments below the limit.
+    drawn = [value for line in ax.lines for value in line.get_ydata() if np.isfinite(value)]
+    ax.set(xlabel=_DENSITY, ylabel="C or B [-]", ylim=(0.0, max([1.1, *(1.05 * y for y in drawn)])))
     return legend_above(ax, 2)
 
 

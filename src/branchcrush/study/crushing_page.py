@@ -1,7 +1,7 @@
 """The page of grains that break: what each figure says in a sentence, of the run's own numbers."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from branchcrush import __version__
@@ -27,8 +27,8 @@ class CrushingPage:
         `crushing_means.csv` and `crushing_beside_forms.csv`.
     grains : sequence of str
         Sentences of `crushed_grains.json`, on who breaks and how energy is split meanwhile.
-    predicted : sequence of str
-        Sentences of `crushing_predicted.json`, on what is predicted without a simulation.
+    predicted : mapping
+        `crushing_predicted.json`.
     """
 
     name: str
@@ -37,12 +37,15 @@ class CrushingPage:
     means: Table
     beside: Table
     grains: Sequence[str] = ()
-    predicted: Sequence[str] = ()
+    predicted: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def leads(self) -> dict[str, str]:
         """One plain sentence for each figure, by its name."""
-        return {**leads(self.summary), "crushed_predicted": " ".join(self.predicted)}
+        return {
+            **leads(self.summary),
+            "crushed_predicted": " ".join(self.predicted.get("sentences", ())),
+        }
 
     @property
     def forms(self) -> list[dict[str, Any]]:
@@ -157,13 +160,15 @@ def form_rows(means: Table, beside: Table) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        Keys label, crushing, stress and dissipated; the last two are ratios.
+        Keys label, crushing, stress and dissipated; the last two are ratios. Forms that say nothing
+        of that state are left out.
     """
     if not len(beside):
         return []
     last = beside["state"].max()
     here = means[(means["state"] == last) & ~means["halved_step"]].iloc[0]
-    told = beside[beside["state"] == last].set_index("form")
+    of_state = beside[beside["state"] == last].set_index("form")
+    told = of_state.dropna(how="all", subset=["crushing", "stress_Pa", "dissipated_J_per_m3"])
     return [
         {
             "label": FORM_LABELS[name],
