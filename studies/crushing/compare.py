@@ -13,10 +13,10 @@ from pathlib import Path
 import pandas as pd
 from figure import draw
 from measured import (
+    errors_of_samples,
     foreteller_rows,
     form_rows,
     growth_rows,
-    prediction_errors,
     prediction_rows,
     samples_there,
     study_rows,
@@ -50,7 +50,7 @@ def main(results: Path = STUDY / "results", docs: Path = DOCS) -> list[str]:
     tables = {
         "crushing_study": pd.DataFrame(study_rows(results, there)),
         "crushing_study_predicted": beside,
-        "crushing_study_errors": pd.DataFrame(prediction_errors(beside)),
+        "crushing_study_errors": pd.DataFrame(errors_of_samples(beside)),
         "crushing_study_forms": pd.DataFrame(form_rows(results, there)),
         "crushing_study_growth": pd.DataFrame(growth_rows(results, there)),
         "crushing_study_who_breaks": pd.DataFrame(foreteller_rows(results, there)),

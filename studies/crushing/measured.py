@@ -12,7 +12,8 @@ from branchcrush.config.sample import breakage_of
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.samples.crushed_line import YIELDED
-from branchcrush.samples.crushing_predicted import QUANTITIES, beside_predicted, measured_states
+from branchcrush.samples.crushing_predicted import beside_predicted, measured_states
+from branchcrush.samples.crushing_prediction import prediction_errors
 
 # A sample whose seeds are also those of another with other growth of fragments.
 GROWTH = {"growth_at_once": 0, "base": 5, "growth_20": 20}
@@ -69,27 +70,13 @@ def prediction_rows(results: Path, names: list[str], predictions: pd.DataFrame) 
     return pd.concat(tables, ignore_index=True) if tables else pd.DataFrame()
 
 
-def prediction_errors(beside: pd.DataFrame) -> list[dict[str, Any]]:
+def errors_of_samples(beside: pd.DataFrame) -> list[dict[str, Any]]:
     """Return errors of the prediction of each sample and quantity, of the states that yield."""
-    rows = []
-    if not len(beside):
-        return rows
-    for name, of_sample in beside.groupby("sample", sort=False):
-        broken = of_sample[of_sample["quantity"] == "broken_mass_fraction"]
-        yields = set(broken.loc[broken["measured"] >= YIELDED, "state"])
-        here = of_sample[of_sample["state"].isin(yields)]
-        for quantity in QUANTITIES:
-            error = here.loc[here["quantity"] == quantity, "error"].dropna()
-            rows.append(
-                {
-                    "sample": name,
-                    "quantity": quantity,
-                    "states": len(error),
-                    "states_asked": len(yields),
-                    "rms_ln": float(np.sqrt((error**2).mean())),
-                    "bias_ln": float(error.mean()),
-                }
-            )
+    rows: list[dict[str, Any]] = []
+    if len(beside):
+        for name, of_sample in beside.groupby("sample", sort=False):
+            table = prediction_errors(of_sample)
+            rows += [{"sample": name} | row for row in table.to_dict("records")]
     return rows
 
 

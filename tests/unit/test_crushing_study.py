@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from branchcrush.files.tables import write_table
+from branchcrush.samples.crushing_predicted import QUANTITIES
 from tests.unit.studies import REPOSITORY, scripts_of
 
 
@@ -71,7 +72,6 @@ def test_a_form_that_says_twice_the_stress_is_off_by_ln_2(study, tmp_path):
 
 
 def test_errors_of_a_prediction_are_of_the_states_that_yield(study):
-    quantities = study.measured.QUANTITIES
     rows = [
         {
             "sample": "hertz",
@@ -81,12 +81,12 @@ def test_errors_of_a_prediction_are_of_the_states_that_yield(study):
             "error": 9.0 if state == 0 else (-1.0) ** state * 0.3,
         }
         for state in range(5)
-        for name in quantities
+        for name in QUANTITIES
     ]
     rows[-1]["error"] = np.nan  # the prediction ends before the last state
-    table = pd.DataFrame(study.measured.prediction_errors(pd.DataFrame(rows)))
-    last = table.set_index("quantity").loc[quantities[-1]]
-    first = table.set_index("quantity").loc[quantities[0]]
+    table = pd.DataFrame(study.measured.errors_of_samples(pd.DataFrame(rows)))
+    last = table.set_index("quantity").loc[QUANTITIES[-1]]
+    first = table.set_index("quantity").loc[QUANTITIES[0]]
     assert (first["states"], last["states"], last["states_asked"]) == (4, 3, 4)
     assert first["rms_ln"] == pytest.approx(0.3) and first["bias_ln"] == pytest.approx(0.0)
     assert last["bias_ln"] == pytest.approx(-0.1)

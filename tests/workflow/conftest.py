@@ -47,8 +47,9 @@ samples:
       smallest_diameter: 0.7
       fragments: 6
       growth_stages: 2
-    seeds: [3, 5]
+    seeds: [3]
     refined_seeds: 0
+energy_split: {resamples: 100}
 figures: {dpi: 100}
 """
 

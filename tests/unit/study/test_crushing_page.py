@@ -10,7 +10,10 @@ from branchcrush.study.crushing_page import CrushingPage, form_rows, leads, rend
 from tests.unit.samples.test_crushed import results
 
 TEMPLATE = Path(__file__).parents[3].joinpath("workflow/report/crushing.html.jinja").read_text()
-FIGURES = ("crushed_line", "crushed_gradings", "crushed_energy", "who_breaks")
+FIGURES = ("crushed_line", "crushed_gradings", "crushed_energy", "crushed_predicted", "who_breaks")
+
+
+PREDICTED = {"reason": None, "sentences": ["It predicts within 20 %.", "There are walls."]}
 
 
 @pytest.fixture(scope="module")
@@ -25,11 +28,11 @@ def crushed():
     return results(broken=(0, 0, 8, 16, 24, 40))
 
 
-def page_of(result, figures, folder):
+def page_of(result, figures, folder, predicted=PREDICTED):
     # As the script reads it: what is not known is null.
     write_json(folder / "crushing.json", result.summary, {})
     summary = read_json(folder / "crushing.json")
-    page = CrushingPage("sand", summary, figures, result.means, result.beside)
+    page = CrushingPage("sand", summary, figures, result.means, result.beside, (), predicted)
     return render_crushing(TEMPLATE, [page])
 
 
@@ -46,7 +49,7 @@ def test_each_figure_has_its_sentence_with_the_numbers_of_the_run(crushed, figur
     assert "50 % of the mass is in fragments, and 360 grains" in said
     assert "The split of the work is not checked" in said
     # Under each figure, also under one that has no sentence of its own.
-    assert said.count("Comminution limit 0.25 mm; 2 seeds, none of them also") == 5
+    assert said.count("Comminution limit 0.25 mm; 2 seeds, none of them also") == 6
     assert page.count("data:image/png;base64,") == len(FIGURES)
     assert page.index('alt="crushed line"') < page.index('alt="who breaks"')
     assert "ε 0 = 1.25 %" in said
@@ -58,6 +61,39 @@ def test_forms_are_told_over_what_was_simulated(crushed):
     paper = rows["paper, no branch density"]
     assert paper["stress"] == told.loc["paper", "stress_Pa"] / last["mean_stress_Pa"]
     assert paper["crushing"] == told.loc["paper", "crushing"]
+
+
+def test_what_is_predicted_without_a_simulation_stands_with_its_errors_or_the_reason(
+    crushed, figures, tmp_path
+):
+    page = page_of(crushed, figures, tmp_path)
+    assert "It predicts within 20 %. There are walls." in text(page)
+    assert "strengths alone: above, with the errors." in text(page)
+    assert page.count('<figure class="wide">') == 2
+    none = {"reason": "why", "sentences": ["Nothing is predicted: why."]}
+    page = page_of(crushed, figures, tmp_path, none)
+    assert "Nothing is predicted: why." in text(page)
+    assert "strengths alone: not here; why stands above." in text(page)
+    # A sentence needs no wide figure, of which a narrow screen shows a part.
+    assert page.count('<figure class="wide">') == 1
+
+
+def test_how_long_branches_are_is_told_beside_the_predictions(crushed):
+    said = leads(crushed.summary)["crushed_lengths"]
+    assert "a branch is 1.35 times as long as the mean grain diameter" in said
+    assert re.search(r"rods that push say 1\.\d\d\.$", said)
+    unknown = {**crushed.summary, "final_branch_over_diameter_by_rods": None}
+    assert leads(unknown)["crushed_lengths"].endswith("says 1 of every grading.")
+
+
+def test_a_form_that_says_nothing_of_the_end_has_no_row(crushed):
+    beside = crushed.beside.copy()
+    numbers = ["crushing", "stress_Pa", "dissipated_J_per_m3"]
+    beside.loc[beside["form"] == "paper", numbers] = float("nan")
+    labels = {row["label"] for row in form_rows(crushed.means, beside)}
+    assert labels == {row["label"] for row in form_rows(crushed.means, crushed.beside)} - {
+        "paper, no branch density"
+    }
 
 
 def test_where_no_grain_broke_the_page_says_so_and_shows_no_numbers(figures, tmp_path):
