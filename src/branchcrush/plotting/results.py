@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from branchcrush.errors import ResultsError
@@ -23,7 +24,7 @@ from branchcrush.plotting import (
     study_networks,
 )
 from branchcrush.plotting.packings import plot_packing
-from branchcrush.plotting.style import axes, drawn
+from branchcrush.plotting.style import STYLE, axes, drawn
 from branchcrush.results.packing import State
 from branchcrush.results.result import Result
 from branchcrush.results.sample import Sample
@@ -64,7 +65,13 @@ def plot(what: Result | State, ax: Axes | None = None) -> Axes:
         raise ResultsError(f"no single panel shows {what.title}; {shown}. Draw its .data yourself")
     if what.missing:
         raise ResultsError(what.missing)
-    return drawn(panel, what.reason, what, ax=axes(ax))
+    try:
+        with plt.rc_context(STYLE):
+            return drawn(panel, what.reason, what, ax=axes(ax))
+    except KeyError as error:
+        raise ResultsError(
+            f"{what.title} cannot be drawn: it lacks {error}, as results of another version may"
+        ) from error
 
 
 def _table(plot: Callable[..., Axes]) -> Panel:

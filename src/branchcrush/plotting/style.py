@@ -32,7 +32,7 @@ SIZE = (3.5, 2.7)
 # Solid fractions are drawn on an axis that is at least so wide [-].
 LEAST_SPREAD = 0.05
 
-_STYLE = {
+STYLE = {
     "font.size": 8,
     "axes.labelsize": 8,
     "axes.titlesize": 8,
@@ -105,7 +105,7 @@ def figure(
     ...     (Path(folder) / "new" / "line.png").exists()
     True
     """
-    with plt.rc_context(_STYLE):
+    with plt.rc_context(STYLE):
         drawing, ax = plt.subplots(
             *panels, figsize=size, dpi=dpi, layout="constrained", squeeze=squeeze
         )

@@ -45,6 +45,25 @@ class Packing(Place):
         crushed = CrushedPacking(self.package, **self._words)
         return crushed if crushed.folder.is_dir() else None
 
+    def as_crushed(self) -> "CrushedPacking":
+        """Return the same packing as it was crushed.
+
+        Returns
+        -------
+        CrushedPacking
+
+        Raises
+        ------
+        ResultsError
+            When its grains do not break.
+        """
+        if self.crushed is None:
+            raise ResultsError(
+                f"{self.title} was not crushed: {self.prefix} has no folder crushing beside it. "
+                "Give the sample a section breakage"
+            )
+        return self.crushed
+
     @property
     def loose(self) -> pd.DataFrame:
         """Centres and radii of the grains as placed at random, a row a grain."""
@@ -187,6 +206,11 @@ class State:
         # A periodic cell has an empty table, whose columns have no type.
         held = {name: walls[name].to_numpy(dtype=float) for name in WALL_COLUMNS}
         return state_network(radii, self.contacts, held, self.number)
+
+    @property
+    def has_centres(self) -> bool:
+        """Whether the centres of its grains are kept."""
+        return self.packing._grains_at(self.number) is not None
 
     @cached_property
     def grains(self) -> pd.DataFrame:
