@@ -50,7 +50,7 @@ def write_polydata(
     ...     file = Path(folder) / "pair.vtp"
     ...     write_polydata(file, [[0, 0, 0], [1, 0, 0]], [[0, 1]], cell_data={"force_N": [2.0]})
     ...     print(file.read_text().count("<DataArray"))
-    8
+    6
 
     References
     ----------
