@@ -1,6 +1,7 @@
 """How every figure looks, and how it is saved."""
 
 import os
+import sys
 import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,7 +13,9 @@ from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
 
-matplotlib.use("Agg")
+# Jobs draw into files alone. Who drew before, or a notebook, has chosen where figures are shown.
+if "matplotlib.pyplot" not in sys.modules and "MPLBACKEND" not in os.environ:
+    matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
 MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"

@@ -158,9 +158,6 @@ class Result:
             raise KeyError(f"{self.title} has no column {column!r}; it has {known}")
         return self.data[column]
 
-    def __len__(self) -> int:
-        return len(self.data)
-
     # --- what is known of it ---------------------------------------------------------------------
 
     @cached_property
