@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+import matplotlib
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
@@ -67,11 +68,15 @@ def plot(what: Result | State, ax: Axes | None = None) -> Axes:
         raise ResultsError(what.missing)
     try:
         with plt.rc_context(STYLE):
-            return drawn(panel, what.reason, what, ax=axes(ax))
+            ax = drawn(panel, what.reason, what, ax=axes(ax))
+            shown = plt.isinteractive()
     except KeyError as error:
         raise ResultsError(
             f"{what.title} cannot be drawn: it lacks {error}, as results of another version may"
         ) from error
+    # A notebook becomes interactive with its first figure, which the end of the style would undo.
+    matplotlib.interactive(shown)
+    return ax
 
 
 def _table(plot: Callable[..., Axes]) -> Panel:
