@@ -122,6 +122,7 @@ def force_chains(network: Network, wall_directions: NDArray | None = None) -> Fo
     major, direction = principal[:, -1], directions[:, :, -1]
     stressed = bearing & (major > major[bearing].mean())
     vector = network.vector
+    assert vector is not None  # grain_stress refuses a network without them
     normal = vector / np.linalg.norm(vector, axis=1, keepdims=True)
     least = np.cos(np.radians(LARGEST_ANGLE))
     along = [np.abs((normal * direction[k]).sum(axis=1)) >= least for k in (network.i, network.j)]
