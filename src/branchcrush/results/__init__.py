@@ -1,7 +1,8 @@
 """Typed access to what a study wrote, for users, reports and figures: read when asked for.
 
 `study`
-    `open_study` returns a `Study`: its samples by name, its tables of all samples, what is missing.
+    `open_study` returns a `Study`: its samples by name, its tables of all samples, measured
+    materials, what is missing.
     The package itself has it, as `branchcrush.open_study`.
 `sample`
     A `Sample`: its packings by seed, its results, its energy split as a typed fit.

@@ -15,6 +15,24 @@ from branchcrush.results.place import Place
 from branchcrush.results.sample import Sample
 
 
+class Material(Place):
+    """A material that a laboratory measured: `gradings`, `breakage`, `compression`.
+
+    Taken from a study, as `study.materials["sand"]`.
+    """
+
+    pattern = "measured/<material>/"
+
+    @property
+    def title(self) -> str:
+        """How it is called in messages."""
+        return f"material {self._words['material']}"
+
+    def __repr__(self) -> str:
+        there = ", ".join(name for name, one in self.results.items() if one.exists)
+        return f"{self.title}: results {there or 'none'}"
+
+
 class Study(Place):
     """The results of a study: samples by name, as `study["sand"]`, and `comparison`, `findings`.
 
@@ -77,6 +95,14 @@ class Study(Place):
         names = list(self.provenance.get("samples", ()))
         names = names or [name for name in found if not name.endswith(REFINED)]
         return {name: Sample(self.package, sample=name) for name in names}
+
+    @cached_property
+    def materials(self) -> dict[str, Material]:
+        """The materials that a laboratory measured, by name; none in most studies."""
+        found = (
+            folder.name for folder in self.package.folder.glob("measured/*") if folder.is_dir()
+        )
+        return {name: Material(self.package, material=name) for name in sorted(found)}
 
     def __getitem__(self, name: str) -> Sample:
         if name not in self.samples:

@@ -1,9 +1,12 @@
 """Opening a study: what is there, what is not, and what is asked for by a wrong name."""
 
+import shutil
+
 import pytest
 
 import branchcrush
 from branchcrush.errors import ResultsError
+from branchcrush.files.tables import write_table
 
 
 @pytest.fixture
@@ -79,3 +82,30 @@ def test_units_are_those_of_the_dictionary(study):
     assert "overlap_m [m]: R_i + R_j less the distance" in repr(contacts)
     columns = contacts.columns.set_index("name")
     assert columns.loc["energy_J", "unit"] == "J"
+
+
+def test_a_crushed_packing_has_its_own_grains_in_every_state(study, tmp_path):
+    ours = study["sand"].seed(7)
+    place = tmp_path / "results" / "sand" / "crushing" / "seed_7"
+    shutil.copytree(ours.folder, place)
+    # The grain in the middle breaks into two; the table has no centres of the loose packing.
+    rows = [{"state": 0, "grain": k, "radius_m": 0.5, "x_m": None} for k in range(3)]
+    rows += [
+        {"state": 2, "grain": grain, "radius_m": radius, "x_m": x, "y_m": 0.0, "z_m": 0.0}
+        for grain, radius, x in ((0, 0.5, -1.0), (2, 0.5, 1.0), (3, 0.4, 0.0), (4, 0.2, 0.0))
+    ]
+    write_table(place / "grains.parquet", rows, {})
+    crushed = ours.crushed
+    with pytest.warns(UserWarning, match="unknown"):
+        assert crushed.end.grains["radius_m"].tolist() == [0.5, 0.5, 0.4, 0.2]
+    assert crushed.state(0).grains["x_m"].tolist() == [-1.0, 0.0, 1.0]
+    assert crushed.end.network.radius.tolist() == [0.5, 0.5, 0.4, 0.2]
+    assert ours.end.grains["radius_m"].tolist() == [0.5, 0.5, 0.5]
+
+
+def test_measured_materials_are_results_too(study, tmp_path):
+    assert study.materials == {}
+    (tmp_path / "results" / "measured" / "quartz").mkdir(parents=True)
+    quartz = branchcrush.open_study(tmp_path).materials["quartz"]
+    assert "gradings" in quartz.results and "none" in repr(quartz)
+    assert quartz.gradings.missing.startswith("measured/quartz/gradings.csv is not there: rule ")
