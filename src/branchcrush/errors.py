@@ -31,3 +31,11 @@ class RunError(BranchcrushError):
 
 class FitError(BranchcrushError):
     """The data carry too little to fit."""
+
+
+class ResultsError(BranchcrushError):
+    """A result that was asked for is not there, or has no such part."""
+
+
+class ResultsWarning(UserWarning):
+    """A result is of another version of this package."""

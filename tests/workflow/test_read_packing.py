@@ -7,6 +7,7 @@ import pytest
 from branchcrush.files.dictionary import result_files
 from branchcrush.files.tables import read_json, read_table
 from tests.workflow.conftest import ROOT
+from tests.workflow.notebooks import executed_beside
 
 CONFIG = """\
 samples:
@@ -54,6 +55,8 @@ def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     for path in (results / "seed_1").iterdir():
         name = path.relative_to(study.folder / "results").as_posix()
         assert any(file.matches(name) for file in result_files()), name
+    cells = executed_beside(study.folder / "results", study.folder / "project")
+    assert "sample others: 2 packings" in cells[0].outputs[0].data["text/plain"]
     again = study.snakemake("--dry-run", *TARGETS)
     assert "Nothing to be done" in again.stdout + again.stderr
 

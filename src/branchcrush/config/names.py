@@ -6,9 +6,8 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator
 
 from branchcrush.config.fields import refusal
+from branchcrush.files.dictionary import REFINED
 
-# Ends the name of a sample run with twice the strain steps, to judge its convergence.
-REFINED = "-refined"
 _LONGEST_NAME = 100
 _NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
 # Files and folders of results that no sample may be called.

@@ -31,7 +31,7 @@ _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate", "crushing")
 # Of samples whose grains break; the first of the seeds that are run again, too.
-_OF_BREAKING = (
+OF_BREAKING = (
     "crushing",
     "crushing_results",
     "crushing_figures",
@@ -97,7 +97,7 @@ def data_package(
             paths = _paths_of_materials(file, measured or {})
         else:
             everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
-            if file.rule in _OF_BREAKING:
+            if file.rule in OF_BREAKING:
                 everything = {name: everything[name] for name in everything if name in breaking}
             if file.rule in _OF_READ:
                 everything = {name: everything[name] for name in everything if name in read}

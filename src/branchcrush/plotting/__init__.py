@@ -16,6 +16,8 @@
     (`crushing_predicted`).
 `study`, `study_networks`
     The panels of all samples.
+`results`
+    What `plot()` of a result of `branchcrush.open_study` draws: `PANELS`, a line each.
 `style`, `intervals`
     How every figure looks: `figure`, `STATES`, colours and sizes; how an estimate with its interval
     is drawn.

@@ -1,7 +1,7 @@
 """All samples of a study beside each other, what a study will cost, and the pages to open.
 
 `results`
-    `SampleResults`: what the rules have found of one sample, read from its files.
+    `SampleResults`: what the rules have found of one sample, read by `results`.
 `kinds`
     `SampleKind`: boundary, contact law and grading, which tell samples apart in figures.
 `exponents`
