@@ -64,7 +64,8 @@ def test_results_are_found_by_their_names_and_offered_to_whoever_types(study):
     assert {"energy_split", "jamming", "fabric"} <= set(dir(study["sand"]))
     assert {"comparison", "findings"} <= set(dir(study))
     assert set(study["sand"].seed(7).results) == {
-        "path", "contacts", "wall_contacts", "steps", "compressed"
+        "path", "contacts", "wall_contacts", "steps", "compressed",
+        "reading",
     }  # fmt: skip
 
 
