@@ -32,6 +32,7 @@ WITHOUT = re.compile(
     r"|representativity\.(expected_)?(largest_diameter|box_edge)"
     r"|(convergence\[\]\.)?(value(_at_twice_the_steps)?|(standard_error_of_)?difference)"
     r"|(convergence\[\]\.)?(could_see|tolerance)|notes\[\]\.(value|limit)"
+    r"|predicted|measured(_(low|high))?"
 )
 # Names of LAMMPS and of NumPy's arrays are as their readers want them.
 OTHERS = (".dump.gz", ".npz")
