@@ -79,8 +79,9 @@ rule crushing_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("crushing_page", CRUSHING_PAGE),
+        code=code("crushing_page", *page_files(page="crushing")),
         template=CRUSHING_PAGE,
+        glossary=GLOSSARY,
         samples=BREAKING,
         figures=CRUSHING_FIGURES + GRAINS_FIGURES,
     script:

@@ -58,8 +58,9 @@ rule measured_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("measured_page", MEASURED_PAGE),
+        code=code("measured_page", *page_files(page="measured")),
         template=MEASURED_PAGE,
+        glossary=GLOSSARY,
         materials=list(MEASURED),
         compressed=COMPRESSED,
     script:

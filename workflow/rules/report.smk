@@ -29,8 +29,8 @@ NETWORK_TABLES = [
     "stress_sharing",
 ]
 FIGURES = PACKING_FIGURES + FIT_FIGURES
-REPORT, FINDINGS_PAGE = (
-    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "findings")
+REPORT, TOGETHER = (
+    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "together")
 )
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
@@ -128,6 +128,8 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
+        **{f"findings_{name}": f"results/figures/findings/{name}.png" for name in FINDINGS},
+        rows="results/findings.csv",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         forms=expand("results/{sample}/crushing_forms.csv", sample=SAMPLES),
@@ -142,10 +144,12 @@ rule report:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report", REPORT),
-        template=REPORT,
+        code=code("report", *page_files("sample", "together", page="report")),
+        templates=[REPORT, TOGETHER],
+        glossary=GLOSSARY,
         samples=SAMPLES,
         figures=FIGURES,
+        findings=FINDINGS,
         measured=bool(MEASURED),
     script:
         "../scripts/report.py"
@@ -178,7 +182,7 @@ rule findings:
         "../scripts/findings.py"
 
 
-rule findings_page:
+rule findings_figures:
     input:
         rows="results/findings.csv",
         states="results/coordination.csv",
@@ -189,17 +193,14 @@ rule findings_page:
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
     output:
         **{name: study_figure(name) for name in FINDINGS},
-        page="results/findings.html",
-        record="results/made/findings_page.json",
+        record="results/made/findings_figures.json",
     log:
-        "logs/findings_page.log",
+        "logs/findings_figures.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("findings_page", FINDINGS_PAGE),
-        template=FINDINGS_PAGE,
+        code=code("findings_figures"),
         samples=SAMPLES,
-        figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,
     script:
-        "../scripts/findings_page.py"
+        "../scripts/findings_figures.py"

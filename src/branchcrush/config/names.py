@@ -22,7 +22,6 @@ _TAKEN = (
     "datapackage.json",
     "exponents.csv",
     "findings.csv",
-    "findings.html",
     "crushing.html",
     "measured.html",
     "report.html",

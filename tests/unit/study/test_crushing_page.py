@@ -7,9 +7,11 @@ import pytest
 
 from branchcrush.files.tables import read_json, write_json
 from branchcrush.study.crushing_page import CrushingPage, form_rows, leads, render_crushing
+from branchcrush.study.pages import page_template
 from tests.unit.samples.test_crushed import results
 
-TEMPLATE = Path(__file__).parents[3].joinpath("workflow/report/crushing.html.jinja").read_text()
+ROOT = Path(__file__).parents[3]
+TEMPLATE = page_template(ROOT / "workflow/report/crushing.html.jinja", ROOT / "docs/glossary.md")
 FIGURES = ("crushed_line", "crushed_gradings", "crushed_energy", "who_breaks")
 
 
