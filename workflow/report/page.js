@@ -12,7 +12,7 @@
   let waiting = false;
   const follow = () => {
     waiting = false;
-    const passed = places.filter(([, place]) => place.getBoundingClientRect().top < innerHeight / 4);
+    const passed = places.filter(([, place]) => place.getBoundingClientRect().top < 72);
     const [now] = passed.at(-1) || places[0] || [];
     if (!now || now.classList.contains("now")) return;
     links.forEach(link => { link.classList.toggle("now", link === now); link.removeAttribute("aria-current"); });

@@ -105,6 +105,11 @@ def page_files(*parts, page):
     return [*(str(ROOT / "workflow/report" / name) for name in own + shared), GLOSSARY]
 
 
+def as_svg(names, folder="{sample}"):
+    """Return the same figures as SVG, which are drawn beside the PNG, as outputs by name."""
+    return {f"{name}_svg": f"results/figures/{folder}/{name}.svg" for name in names}
+
+
 def figure(name):
     """Return a figure of a sample, as an output that `snakemake --report` holds."""
     return report(

@@ -48,6 +48,7 @@ rule crushing_figures:
         path=lambda wildcards: of_crushed_seeds("path.csv")(wildcards)[:1],
     output:
         **{name: figure(name) for name in CRUSHING_FIGURES},
+        **as_svg(CRUSHING_FIGURES),
         record="results/{sample}/made/crushing_figures.json",
     log:
         "logs/{sample}/crushing_figures.log",

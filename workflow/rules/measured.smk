@@ -9,6 +9,7 @@ rule measured:
         curves="results/measured/{material}/gradings.csv",
         breakage="results/measured/{material}/breakage.json",
         figure=measured_figure("gradings"),
+        **as_svg(["gradings"], "measured/{material}"),
         record="results/measured/{material}/made/measured.json",
     log:
         "logs/measured/{material}/measured.log",
@@ -31,6 +32,7 @@ rule measured_resistance:
         line="results/measured/{material}/compression_line.csv",
         summary="results/measured/{material}/compression.json",
         figure=measured_figure("compression"),
+        **as_svg(["compression"], "measured/{material}"),
         record="results/measured/{material}/made/measured_resistance.json",
     log:
         "logs/measured/{material}/measured_resistance.log",

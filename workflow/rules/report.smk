@@ -51,6 +51,7 @@ rule packing_figures:
         compressed=of_first_seed("compressed.parquet"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
+        **as_svg(PACKING_FIGURES),
         record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
@@ -80,6 +81,7 @@ rule fit_figures:
         data=data_files,
     output:
         **{name: figure(name) for name in FIT_FIGURES},
+        **as_svg(FIT_FIGURES),
         record="results/{sample}/made/fit_figures.json",
     log:
         "logs/{sample}/fit_figures.log",
@@ -193,6 +195,7 @@ rule findings_figures:
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
     output:
         **{name: study_figure(name) for name in FINDINGS},
+        **as_svg(FINDINGS, "findings"),
         record="results/made/findings_figures.json",
     log:
         "logs/findings_figures.log",
