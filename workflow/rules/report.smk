@@ -3,7 +3,15 @@
 # As measured, and what is fitted: only the second show the crushing model. Halves of about equal
 # work, so that both cores draw those of one sample, and no more jobs, since each loads the plotting
 # library once more.
-PACKING_FIGURES = ["fig3_grading", "fig4_packing", "certificate", "who_touches_whom", "sharing"]
+PACKING_FIGURES = [
+    "fig3_grading",
+    "fig4_packing",
+    "certificate",
+    "who_touches_whom",
+    "sharing",
+    "force_chains",
+    "contact_rose",
+]
 FIT_FIGURES = [
     "fig5_energy_split",
     "fig6_cubic",
@@ -11,6 +19,7 @@ FIT_FIGURES = [
     "exponent_path",
     "predictors",
     "loading_path",
+    "compression_curve",
     "crushing_model",
     "crushing_energy",
     "crushing_yield",
@@ -49,6 +58,7 @@ rule packing_figures:
         path=of_first_seed("path.csv"),
         packing=of_first_seed("packing.npz"),
         compressed=of_first_seed("compressed.parquet"),
+        contacts=of_first_seed("contacts.parquet"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
         **as_svg(PACKING_FIGURES),

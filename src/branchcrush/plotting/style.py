@@ -93,6 +93,7 @@ def figure(
     size: tuple[float, float] = SIZE,
     panels: tuple[int, int] = (1, 1),
     squeeze: bool = True,
+    projection: str | None = None,
 ) -> Iterator[Any]:
     """Draw a figure and save it: yields its Axes, one or an array of them.
 
@@ -109,6 +110,8 @@ def figure(
         Rows and columns.
     squeeze : bool
         Whether one panel comes alone and one row or column as a list, or all as an array.
+    projection : str, optional
+        As polar.
 
     Examples
     --------
@@ -121,7 +124,12 @@ def figure(
     """
     with plt.rc_context(_STYLE):
         drawing, ax = plt.subplots(
-            *panels, figsize=size, dpi=dpi, layout="constrained", squeeze=squeeze
+            *panels,
+            figsize=size,
+            dpi=dpi,
+            layout="constrained",
+            squeeze=squeeze,
+            subplot_kw={"projection": projection},
         )
         yield ax
         letter(drawing)
@@ -170,7 +178,8 @@ def letter(drawing: Figure) -> list[str]:
         return []
     for text, ax in zip(letters, panels, strict=True):
         beside = {"xytext": (-24, 9), "textcoords": "offset points", "ha": "right"}
-        ax.annotate(text, (0, 1), xycoords="axes fraction", va="bottom", weight="bold", **beside)
+        written = ax.annotate(text, (0, 1), xycoords="axes fraction", va="bottom", **beside)
+        written.set(weight="bold", gid="letter")
     return letters
 
 

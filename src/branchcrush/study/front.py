@@ -72,7 +72,7 @@ def study_sentences(
         (least, first), (most, last) = known[0], known[-1]
         told.append(
             "Among the certified ones n, the exponent of the energy of a branch in its length, "
-            f"runs from {least:.2f} ({first}) to {most:.2f} ({last}); the paper has 3 for its one case."
+            f"runs from {least:.2f} ({first}) to {most:.2f} ({last}); the paper has 3 in its case."
         )
     elif not known:
         told.append("Of no certified sample n is known.")

@@ -86,10 +86,16 @@ def terms_by_name(terms: Sequence[Term]) -> Mapping[str, Term]:
     named: dict[str, Term] = {}
     for term in terms:
         for name in term.names:
-            for key in {name, name[:1].lower() + name[1:] if name[1:2].islower() else name}:
+            for key in _written(name):
                 if named.setdefault(key, term) is not term:
                     raise ValueError(f"two terms of the glossary are called {name}")
     return named
+
+
+def _written(name: str) -> set[str]:
+    """Return a name as it stands within a sentence and at its beginning; a symbol has one form."""
+    rest = name[1:]
+    return {name[:1].lower() + rest, name[:1].upper() + rest} if rest[:1].islower() else {name}
 
 
 def with_subscripts(text: str) -> Markup:
