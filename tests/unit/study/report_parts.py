@@ -171,6 +171,7 @@ def page_rendering(folder: Path, fit: EnergySplitFit) -> Callable:
     def render(*samples, **keys):
         html = render_report(TEMPLATE_OF_PAGE, [sample(**parts) for parts in samples], **keys)
         assert not re.search(r"\b(nan|None|NaN|Undefined)\b", html)
+        assert not re.search(r'(href|src)="[^"]*(<|&lt;|%3C)', html)
         assert html.count("<ul") == html.count("</ul>")
         assert html.count("<table") == html.count("</table>")
         return html
