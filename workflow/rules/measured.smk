@@ -6,10 +6,10 @@ rule measured:
     input:
         data=gradings_of("before", "after"),
     output:
+        **as_svg(["gradings"], "measured/{material}"),
         curves="results/measured/{material}/gradings.csv",
         breakage="results/measured/{material}/breakage.json",
         figure=measured_figure("gradings"),
-        **as_svg(["gradings"], "measured/{material}"),
         record="results/measured/{material}/made/measured.json",
     log:
         "logs/measured/{material}/measured.log",
@@ -28,11 +28,11 @@ rule measured_resistance:
         data=gradings_of("before"),
         curve=lambda wildcards: local(material_of(wildcards)["compression"]["file"]),
     output:
+        **as_svg(["compression"], "measured/{material}"),
         curve="results/measured/{material}/compression.csv",
         line="results/measured/{material}/compression_line.csv",
         summary="results/measured/{material}/compression.json",
         figure=measured_figure("compression"),
-        **as_svg(["compression"], "measured/{material}"),
         record="results/measured/{material}/made/measured_resistance.json",
     log:
         "logs/measured/{material}/measured_resistance.log",
