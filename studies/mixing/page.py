@@ -1,7 +1,6 @@
 """The tables of docs/mixing.md, between its marks: every number there comes from here."""
 
-import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,8 @@ from assumptions import LEVEL
 from measured import UNCHANGED
 from pairs import Pair
 
-_BEGIN, _END = "<!-- made by studies/mixing/compare.py: {} -->", "<!-- end -->"
+from branchcrush.files.blocks import interval_cell, number_cell, table
+
 FORMS = {
     "moving_jamming": "moving jamming point, rods",
     "moving_jamming_parking": "the same, parking",
@@ -35,25 +35,6 @@ MODELS = {
 }
 
 
-def filled(page: str, blocks: Mapping[str, Sequence[str]]) -> str:
-    """Return a page with the lines of each block between its marks.
-
-    Examples
-    --------
-    >>> page = "<!-- made by studies/mixing/compare.py: one --><!-- end -->"
-    >>> filled(page, {"one": ["| a |"]}).splitlines()[1]
-    '| a |'
-    """
-    for name, lines in blocks.items():
-        begin = _BEGIN.format(name)
-        place = re.compile(f"({re.escape(begin)}).*?({re.escape(_END)})", re.DOTALL)
-        if not place.search(page):
-            raise SystemExit(f"error: docs/mixing.md has no place for {begin} and {_END}")
-        made = "\n".join(lines)
-        page = place.sub(lambda found, made=made: f"{found[1]}\n{made}\n{found[2]}", page)
-    return page
-
-
 def energy_block(pairs: Sequence[Pair], compared: pd.DataFrame, *, held_out: bool) -> list[str]:
     """Return the energy of each mixture at equal elastic strain, and each form's."""
     header = ["sample", "elastic strain", "DEM", *(FORMS[form] for form in SHOWN[:-1])]
@@ -71,8 +52,8 @@ def energy_block(pairs: Sequence[Pair], compared: pd.DataFrame, *, held_out: boo
                 [
                     group["sample"].iloc[0],
                     f"{level:g}",
-                    _interval(group.iloc[0], "energy_ratio"),
-                    *(_number(said["predicted_energy_ratio"].get(form)) for form in SHOWN[:-1]),
+                    interval_cell(group.iloc[0], "energy_ratio"),
+                    *(number_cell(said["predicted_energy_ratio"].get(form)) for form in SHOWN[:-1]),
                 ]
             )
     return _table(header, rows)
@@ -103,13 +84,13 @@ def packing_block(measured: pd.DataFrame, predictions: pd.DataFrame) -> list[str
         [
             row["sample"],
             row["seeds"],
-            _interval(row, "jamming_solid_fraction", 4),
+            interval_cell(row, "jamming_solid_fraction", 4),
             f"{said.loc[row['sample'], 'jamming_solid_fraction']:.4f}",
-            _interval(row, "coordination_number"),
-            _interval(row, "mechanical_coordination_number"),
-            _interval(row, "rattler_fraction"),
-            _interval(row, "bearing_mass", 3),
-            _interval(row, "exponent"),
+            interval_cell(row, "coordination_number"),
+            interval_cell(row, "mechanical_coordination_number"),
+            interval_cell(row, "rattler_fraction"),
+            interval_cell(row, "bearing_mass", 3),
+            interval_cell(row, "exponent"),
         ]
         for _, row in at.iterrows()
     ]
@@ -123,11 +104,11 @@ def assumption_block(assumptions: pd.DataFrame) -> list[str]:
     rows = [
         [
             row["sample"],
-            _interval(row, "exponent"),
-            _interval(row, "density_ratio"),
-            _interval(row, "jamming_solid_fraction", 4),
-            *(_number(row.get(name), 3) for name in ("mixed_by_crushing", "mixed_at_best")),
-            *(_number(row.get(name), 2) for name in ("best_share", "crushing_by_moments")),
+            interval_cell(row, "exponent"),
+            interval_cell(row, "density_ratio"),
+            interval_cell(row, "jamming_solid_fraction", 4),
+            *(number_cell(row.get(name), 3) for name in ("mixed_by_crushing", "mixed_at_best")),
+            *(number_cell(row.get(name), 2) for name in ("best_share", "crushing_by_moments")),
         ]
         for _, row in assumptions.iterrows()
     ]
@@ -143,8 +124,8 @@ def fraction_block(fractions: pd.DataFrame) -> list[str]:
             row["sample"],
             f"{row['solid_fraction']:.4f}",
             f"{row['jammed']} of {row['seeds']}",
-            _interval(row, "energy_ratio") if row["jammed"] else "0",
-            *(_number(row[f"{form}_energy_ratio"], 3) for form in forms),
+            interval_cell(row, "energy_ratio") if row["jammed"] else "0",
+            *(number_cell(row[f"{form}_energy_ratio"], 3) for form in forms),
         ]
         for _, row in fractions.iterrows()
     ]
@@ -169,12 +150,12 @@ def fines_block(pairs: Sequence[Pair], measured: pd.DataFrame) -> list[str]:
             [
                 row["sample"],
                 f"{100 * fines:g}",
-                _interval(row, "jamming_solid_fraction", 4),
+                interval_cell(row, "jamming_solid_fraction", 4),
                 f"{void:.3f}",
                 f"{(void + fines) / (1.0 - fines):.3f}",
-                _interval(row, "stress_reduction_factor"),
-                _interval(row, "bearing_fines"),
-                _interval(row, "coarse_coarse_coordination"),
+                interval_cell(row, "stress_reduction_factor"),
+                interval_cell(row, "bearing_fines"),
+                interval_cell(row, "coarse_coarse_coordination"),
             ]
         )
     return _table(header, rows)
@@ -189,11 +170,11 @@ def network_block(networks: pd.DataFrame) -> list[str]:
     for (sample, level), group in _groups(networks, ["sample", "elastic_strain"]):
         said = group.set_index("model")
         row = [sample, f"{level:g}"]
-        row += [_number(said["kolmogorov_smirnov"].get(name), 3) for name in MODELS]
+        row += [number_cell(said["kolmogorov_smirnov"].get(name), 3) for name in MODELS]
         for name in ("coordination_number", "load_bearing_fraction"):
-            row.append(_number(group[name].iloc[0]))
+            row.append(number_cell(group[name].iloc[0]))
             predicted = said[f"predicted_{name}"]
-            row += [_number(predicted.get(model)) for model in list(MODELS)[1:]]
+            row += [number_cell(predicted.get(model)) for model in list(MODELS)[1:]]
         rows.append(row)
     return _table(header, rows)
 
@@ -210,27 +191,10 @@ def _groups(table: pd.DataFrame, keys: list[str]) -> Iterable:
 
 
 def _table(header: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
-    if not rows:
-        return ["Nothing of this was packed yet."]
-    lines = [header, ["---"] * len(header), *rows]
-    return [f"| {' | '.join(map(str, line))} |" for line in lines]
-
-
-def _number(value: float | None, digits: int = 2) -> str:
-    return "–" if value is None or not np.isfinite(value) else f"{value:.{digits}f}"
-
-
-def _interval(row, name, digits=2):
-    low = row.get(f"{name}_low", np.nan)
-    text = _number(row.get(name, np.nan), digits)
-    return (
-        text
-        if not np.isfinite(low)
-        else f"{text} ({low:.{digits}f}–{row[f'{name}_high']:.{digits}f})"
-    )
+    return table(header, rows) if rows else ["Nothing of this was packed yet."]
 
 
 def _error(said, form, part):
     if form not in said.index or not np.isfinite(said.loc[form, f"rms_{part}"]):
         return "–"
-    return f"{_interval(said.loc[form], f'rms_{part}')}, {said.loc[form, f'bias_{part}']:+.2f}"
+    return f"{interval_cell(said.loc[form], f'rms_{part}')}, {said.loc[form, f'bias_{part}']:+.2f}"

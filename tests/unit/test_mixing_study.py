@@ -2,7 +2,6 @@
 
 import doctest
 import shutil
-from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,6 +12,7 @@ import pytest
 from branchcrush.branches.nodes import grading_nodes
 from branchcrush.files.tables import read_table
 from branchcrush.gradings.rods import rod_map
+from tests.unit.studies import scripts_of
 
 REPOSITORY = Path(__file__).parents[2]
 STUDY = REPOSITORY / "studies" / "mixing"
@@ -22,10 +22,8 @@ SCRIPTS += ("compare",)
 
 @pytest.fixture(scope="module")
 def study():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(STUDY)
-        scripts = {name: import_module(name) for name in SCRIPTS}
-    return SimpleNamespace(**scripts, all=scripts["pairs"].study_pairs())
+    scripts = scripts_of("mixing")
+    return SimpleNamespace(**vars(scripts), all=scripts.pairs.study_pairs())
 
 
 @pytest.fixture(scope="module")

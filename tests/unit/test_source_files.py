@@ -174,6 +174,10 @@ def test_every_module_is_used_by_the_workflow_a_command_or_a_study():
         used |= set(re.findall(r"from branchcrush\.([a-z_.]+) import", source.read_text("utf-8")))
     # What a study makes of its results, by a target of the Makefile.
     used = used.union(*map(imported_modules, REPOSITORY.glob("studies/*/*.py")))
+    # Loaded by their names: what reads results for users, and what draws them.
+    for source in PACKAGE.rglob("*.py"):
+        by_name = r'import_module\("branchcrush\.([a-z_.]+)"\)'
+        used |= set(re.findall(by_name, source.read_text(encoding="utf-8")))
     assert closure(used) == set(MODULES)
 
 

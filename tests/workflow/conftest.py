@@ -29,6 +29,29 @@ samples:
     refined_seeds: 1
 figures: {dpi: 100}
 """
+# Walls and Hertz contacts; a limit so high that fragments do not break, and few are made.
+BREAKING = """\
+samples:
+  breaking:
+    grading: {form: uniform, basis: number, size: diameter, unit: mm, min: 0.8, max: 1.2}
+    grains: 24
+    allow_unrepresentative: true
+    boundary: walls
+    contact: {law: hertz, young_modulus: 2.06e10, poisson_ratio: 0.17}
+    loading: {solid_fraction: 0.6, approach_solid_fraction: 0.42, states: 5, quality: draft}
+    breakage:
+      strength: 1.0e7
+      weibull_modulus: 3
+      unit: mm
+      reference_diameter: 1.0
+      smallest_diameter: 0.7
+      fragments: 6
+      growth_stages: 2
+    seeds: [3]
+    refined_seeds: 0
+energy_split: {resamples: 100}
+figures: {dpi: 100}
+"""
 
 
 class Study:
@@ -179,16 +202,29 @@ def finished(tmp_path_factory):
 
     Each process has a copy, which its tests may change as long as they put it back.
     """
+    return run_once(tmp_path_factory, "finished", TINY)
+
+
+@pytest.fixture(scope="session")
+def breaking(tmp_path_factory):
+    """The page of a tiny study whose grains break, made once as `finished` is."""
+    return run_once(tmp_path_factory, "breaking", BREAKING, "results/crushing.html")
+
+
+def run_once(tmp_path_factory, name, config, *targets):
+    """Return a copy of a study that the first process of the tests has run."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
-    original, output = shared / "finished", shared / "finished.txt"
-    with open(shared / "finished.lock", "w") as lock:
+    original, output = shared / name, shared / f"{name}.txt"
+    with open(shared / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not output.exists():
             shutil.rmtree(original, ignore_errors=True)
             original.mkdir()
-            run = Project(original).snakemake(new=True)
+            project = Project(original)
+            project.configure(config)
+            run = project.snakemake(*targets, new=True)
             assert run.returncode == 0, run.stdout + run.stderr
             output.write_text(run.stdout + run.stderr)
     project = Project.copied(original, tmp_path_factory.mktemp("study") / "copy")

@@ -90,7 +90,12 @@ def measured_results(new_project, tmp_path_factory):
     return study.folder / "results"
 
 
-@pytest.fixture(params=["results", "measured_results"])
+@pytest.fixture(scope="session")
+def breaking_results(breaking):
+    return breaking.folder / "results"
+
+
+@pytest.fixture(params=["results", "measured_results", "breaking_results"])
 def any_results(request):
     return request.getfixturevalue(request.param)
 

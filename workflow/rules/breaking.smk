@@ -6,15 +6,20 @@ CRUSHING_TABLES = {
     "states": "crushing_states",
     "means": "crushing_means",
     "gradings": "crushing_gradings",
+    "lengths": "crushing_lengths",
     "line": "crushing_line",
     "beside": "crushing_beside_forms",
+    "predicted": "crushing_predicted",
+    "beside_predicted": "crushing_beside_predicted",
 }
 CRUSHING_FIGURES = [
     "crushed_line",
     "crushed_gradings",
+    "crushed_lengths",
     "crushed_energy",
     "crushed_measures",
     "crushed_forms",
+    "crushed_predicted",
     "crushed_packing",
 ]
 GRAINS_FIGURES = ["who_breaks", "split_of_crushed"]

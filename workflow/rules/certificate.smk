@@ -18,7 +18,7 @@ rule certificate:
         "../envs/branchcrush.yaml"
     params:
         code=code("certificate"),
-        sample=section("contact", "seeds"),
+        sample=section("packing", "contact", "seeds"),
     script:
         "../scripts/certificate.py"
 
@@ -35,6 +35,7 @@ rule verdict:
         paths=of_all_seeds("path.csv"),
         refined_paths=of_refined_seeds("path.csv"),
         refined_contacts=of_refined_seeds("contacts.parquet"),
+        readings=of_read_seeds("reading.json"),
         data=data_files,
     output:
         convergence=table("convergence", "the first seeds again with twice the strain steps"),
@@ -48,7 +49,7 @@ rule verdict:
         "../envs/branchcrush.yaml"
     params:
         code=code("verdict"),
-        sample=section("grading", "seeds", "refined_seeds", "quality", "strain_step"),
+        sample=section("packing", "grading", "seeds", "refined_seeds", "quality", "strain_step"),
         bins=SETTINGS.energy_split.bins,
     script:
         "../scripts/verdict.py"

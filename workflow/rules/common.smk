@@ -4,6 +4,7 @@ from pathlib import Path
 
 from branchcrush.config.gradings import grading_data_files
 from branchcrush.config.names import REFINED
+from branchcrush.config.packing_files import frame_files
 from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
 
@@ -16,6 +17,8 @@ REFINED_SAMPLES = {
     for name, sample in SETTINGS.samples.items()
     if sample.refined_seeds
 }
+# Packings that another code made: read, not compressed here.
+READ = {name for name, sample in SAMPLES.items() if sample["packing"]}
 # What a laboratory measured, by name of the material.
 MEASURED = {name: material.settings() for name, material in SETTINGS.measured.items()}
 # Of every interval from resampling seeds.
@@ -34,11 +37,21 @@ def settings_of(wildcards):
 
 def section(*keys):
     """Return a params function for some keys of the sample, as plain values."""
-    return lambda wildcards: {key: settings_of(wildcards)[key] for key in keys}
+
+    def values(wildcards, input):
+        chosen = {key: settings_of(wildcards)[key] for key in keys}
+        if "grading" in chosen and wildcards.sample in READ:
+            # Of the grains themselves, wherever a module's prefix puts them.
+            chosen["grading"] = {**chosen["grading"], "file": str(input.data)}
+        return chosen
+
+    return values
 
 
 def data_files(wildcards):
     """Return the files that the sample's grading is read from."""
+    if wildcards.sample in READ:
+        return [f"results/{wildcards.sample}/radii.csv"]
     return data_of(settings_of(wildcards))
 
 
@@ -53,6 +66,23 @@ def history_files(wildcards):
     return [local(file)] if file else []
 
 
+def samples_where(kept):
+    """Return a constraint of the wildcard `sample` to some of all samples."""
+    return (
+        "|".join(re.escape(name) for name in [*SAMPLES, *REFINED_SAMPLES] if kept(name)) or "(?!)"
+    )
+
+
+def packing_files(kind):
+    """Return an input function for the files of grains or contacts that a packing is read from."""
+
+    def files(wildcards):
+        name = settings_of(wildcards)["packing"][kind][int(wildcards.seed) - 1]
+        return [local(file) for file in frame_files(name)]
+
+    return files
+
+
 def of_seeds(file, of, seeds):
     return [f"results/{of}/seed_{seed}/{file}" for seed in seeds]
 
@@ -60,6 +90,15 @@ def of_seeds(file, of, seeds):
 def of_all_seeds(file):
     """Return an input function for a file of every seed of the sample."""
     return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"])
+
+
+def of_read_seeds(file):
+    """Return an input function for a file of every packing that was read, of none made here."""
+
+    def files(wildcards):
+        return of_all_seeds(file)(wildcards) if wildcards.sample in READ else []
+
+    return files
 
 
 def of_first_seed(file):

@@ -20,6 +20,8 @@ rule compression:
         record="results/{sample}/seed_{seed}/made.json",
     log:
         "logs/{sample}/seed_{seed}/compression.log",
+    wildcard_constraints:
+        sample=samples_where(lambda name: name not in READ),
     # Twice the strain steps take twice as long: begun first, they keep no core waiting at the end.
     priority: lambda wildcards: int(wildcards.sample in REFINED_SAMPLES)
     conda:

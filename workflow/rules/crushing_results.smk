@@ -16,6 +16,7 @@ rule crushing_results:
         states=table("crushing_states", "every state of every crushing: grading, energies, strain"),
         means=table("crushing_means", "means over the seeds along the crushing"),
         gradings=table("crushing_gradings", "gradings at stages of crushing"),
+        lengths=table("crushing_lengths", "branch lengths at stages of crushing"),
         line=table("crushing_line", "the compression line, and the one of the gradings alone"),
         beside=table("crushing_beside_forms", "what every form of the model says of the crushing"),
         summary="results/{sample}/crushing.json",
@@ -39,10 +40,33 @@ rule crushing_results:
         "../scripts/crushing_results.py"
 
 
+rule crushing_predicted:
+    input:
+        paths=of_crushed_seeds("path.csv"),
+        grains=of_crushed_seeds("grains.parquet"),
+        data=data_files,
+    output:
+        predicted=table("crushing_predicted", "crushing without a simulation, along the path"),
+        beside=table("crushing_beside_predicted", "the same beside the simulated states"),
+        summary="results/{sample}/crushing_predicted.json",
+        record="results/{sample}/made/crushing_predicted.json",
+    log:
+        "logs/{sample}/crushing_predicted.log",
+    conda:
+        "../envs/branchcrush.yaml"
+    params:
+        code=code("crushing_predicted"),
+        sample=section("grading", "contact", "breakage", "boundary", "seeds"),
+        confidence=INTERVALS["confidence"],
+    script:
+        "../scripts/crushing_predicted.py"
+
+
 rule crushing_figures:
     input:
         **{name: f"results/{{sample}}/{file}.csv" for name, file in CRUSHING_TABLES.items()},
         summary="results/{sample}/crushing.json",
+        prediction="results/{sample}/crushing_predicted.json",
         controls=of_all_seeds("path.csv"),
         grains=lambda wildcards: of_crushed_seeds("grains.parquet")(wildcards)[:1],
         path=lambda wildcards: of_crushed_seeds("path.csv")(wildcards)[:1],
@@ -70,6 +94,7 @@ rule crushing_page:
         },
         summaries=expand("results/{sample}/crushing.json", sample=BREAKING),
         grains=expand("results/{sample}/crushed_grains.json", sample=BREAKING),
+        predicted=expand("results/{sample}/crushing_predicted.json", sample=BREAKING),
         beside=expand("results/{sample}/crushing_beside_forms.csv", sample=BREAKING),
         means=expand("results/{sample}/crushing_means.csv", sample=BREAKING),
     output:

@@ -16,6 +16,7 @@ rule grading:
     params:
         code=code("grading"),
         sample=section(
+            "packing",
             "grading",
             "sampling",
             "grains",

@@ -3,7 +3,7 @@
 
 rule preview:
     input:
-        data=[file for settings in SAMPLES.values() for file in data_of(settings)],
+        data=[file for name in SAMPLES if name not in READ for file in data_of(SAMPLES[name])],
     log:
         "logs/preview.log",
     localrule: True

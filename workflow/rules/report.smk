@@ -69,7 +69,7 @@ rule packing_figures:
         "../envs/branchcrush.yaml"
     params:
         code=code("packing_figures"),
-        sample=section("grading"),
+        sample=section("packing", "grading"),
         tables=NETWORK_TABLES,
         dpi=SETTINGS.figures.dpi,
     script:
@@ -124,6 +124,7 @@ rule comparison:
     params:
         code=code("comparison"),
         samples=SAMPLES,
+        read=sorted(READ),
         run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},
         dictionary=dictionary_digest(),
         measured={name: "compression" in material for name, material in MEASURED.items()},

@@ -15,6 +15,7 @@ with recorded_job(snakemake):
             read_table(files.means[k]),
             read_table(files.beside[k]),
             read_json(files.grains[k])["sentences"],
+            read_json(files.predicted[k]),
         )
         for k, name in enumerate(params.samples)
     ]

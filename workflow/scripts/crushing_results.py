@@ -34,6 +34,6 @@ with recorded_job(snakemake):
     controls = {seed: read_table(path) for seed, path in zip(seeds, files.controls, strict=True)}
     results = crushed_results(runs, halved, controls, sample, settings, params.intervals)
     origin = provenance(sample=snakemake.wildcards.sample, config=params.sample)
-    for name in ("states", "means", "gradings", "line", "beside"):
+    for name in ("states", "means", "gradings", "lengths", "line", "beside"):
         write_table(snakemake.output[name], getattr(results, name), origin)
     write_json(snakemake.output.summary, results.summary, origin)

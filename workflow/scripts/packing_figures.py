@@ -17,7 +17,8 @@ with recorded_job(snakemake):
     _, largest = grading_of(params.sample["grading"]).support()
 
     figures.draw_grading(output.fig3_grading, dpi, read_table(files.grading))
-    figures.draw_packing(output.fig4_packing, dpi, packing, compressed, path, largest)
+    read = bool(params.sample["packing"])
+    figures.draw_packing(output.fig4_packing, dpi, packing, compressed, path, largest, read=read)
     figures.draw_certificate(output.certificate, dpi, states, jamming, read_json(files.certificate))
     networks.draw_who_touches_whom(output.who_touches_whom, dpi, numbers, tables, largest)
     networks.draw_sharing(output.sharing, dpi, shared, tables, largest)

@@ -4,6 +4,7 @@ from branchcrush.config.build import grading_of
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import provenance, read_json, read_table, write_json, write_table
 from branchcrush.records import recorded_job
+from branchcrush.samples.certificate import limits_of
 from branchcrush.samples.seed_branches import ENERGY_COLUMNS
 from branchcrush.samples.verdict import Refined, verdict_results
 
@@ -28,6 +29,8 @@ with recorded_job(snakemake):
         report=read_json(files.grading),
         fit=EnergySplitFit.read(read_json(files.fit)),
         bins=snakemake.params.bins,
+        limits=limits_of(sample["packing"]),
+        readings=[read_json(path) for path in files.readings],
     )
     origin = provenance(sample=snakemake.wildcards.sample, config=sample)
     write_table(snakemake.output.convergence, convergence, origin)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from branchcrush.config.checks import checked_study
 from branchcrush.config.file import config_file_content
+from branchcrush.config.packing import ReadSample
 from branchcrush.config.schema import Config
 from branchcrush.errors import ConfigError
 
@@ -70,6 +71,22 @@ def measured_line(name: str, given: Collection[str]) -> str:
     return f"{name}, measured: {words} -> results/measured.html"
 
 
+def read_line(name: str, sample: ReadSample) -> str:
+    """Return what will be made of packings that another code made, in a line.
+
+    Parameters
+    ----------
+    name : str
+    sample : ReadSample
+
+    Returns
+    -------
+    str
+    """
+    number = len(sample.seeds)
+    return f"{name}: {number} packing{'s' if number > 1 else ''} read from {sample.packing.format}"
+
+
 def check(place: str) -> int:
     """Print what is wrong with a configuration, or what it holds if nothing is.
 
@@ -89,6 +106,9 @@ def check(place: str) -> int:
     if study is None:
         return 1
     for name, sample in study.samples.items():
+        if isinstance(sample, ReadSample):
+            print(read_line(name, sample))
+            continue
         grains = (
             "as many grains as its list" if sample.grains is None else f"{sample.grains} grains"
         )

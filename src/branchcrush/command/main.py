@@ -29,6 +29,14 @@ _CHECK = """\
 Check a configuration with all that it asks of grains, files and folders, and name all problems at
 once, a line each. Names of files in it are relative to its folder.
 """
+_EXPORT = """\
+Write a state of a packing for ParaView: grains, contacts, force chains and the cell, a .vtp file
+each, in a folder for the packing.
+
+  branchcrush export                                  # the first packing, at the end of its loading
+  branchcrush export my_sand --sample sand --seed 3   # of a study in another folder
+  branchcrush export --crushed --state all            # grains that break, a file for each state
+"""
 _EXIT = "exit code: 0 sound, 1 problems in what was given, 2 no such file, folder or option"
 _HELP = {
     "unit": "of the sizes, if the header gives none",
@@ -114,6 +122,24 @@ def parser() -> argparse.ArgumentParser:
         metavar="FOLDER|FILE",
         help="a folder with a config.yaml, or a configuration file [.]",
     )
+
+    export = commands.add_parser(
+        "export",
+        help="packings as files for ParaView",
+        description=_EXPORT,
+        epilog=_EXIT,
+        formatter_class=raw,
+    )
+    export.add_argument(
+        "place", nargs="?", default=".", metavar="FOLDER", help="of the study or its results [.]"
+    )
+    export.add_argument("--sample", help="its name [the first]")
+    export.add_argument("--seed", type=int, help="of the packing [the first]")
+    export.add_argument(
+        "--state", type=_state, default="end", help="its number, end, or all whose grains are kept"
+    )
+    export.add_argument("--crushed", action="store_true", help="the packing whose grains break")
+    export.add_argument("--to", default="paraview", metavar="FOLDER", help="to write to [paraview]")
     return whole
 
 
@@ -147,6 +173,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             from branchcrush.command.preview import preview
 
             return preview(given["place"], given["cores"])
+        if command == "export":
+            from branchcrush.command.export import export
+
+            return export(**given)
         from branchcrush.command.grading import grading
 
         file, picture = given.pop("file"), given.pop("picture")
@@ -174,6 +204,12 @@ def _png(name):
     if not name.endswith(".png"):
         raise argparse.ArgumentTypeError(f"{name!r} must end in .png")
     return name
+
+
+def _state(text):
+    if text not in ("end", "all") and not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text!r} must be the number of a state, end or all")
+    return text
 
 
 def _cores(text):

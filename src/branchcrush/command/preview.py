@@ -66,7 +66,8 @@ def study_preview(
         When a file of a grading is not usable.
     """
     plans, notes = {}, {}
-    for name, settings in samples.items():
+    compressed = {name: each for name, each in samples.items() if not each.get("packing")}
+    for name, settings in compressed.items():
         sample = sample_of(settings)
         rng = np.random.default_rng(sample.seeds[0])
         radii = sampled_radii(sample.grading, sample.grains, sample.sampling, rng)
@@ -90,7 +91,12 @@ def study_preview(
             refused=not settings["allow_unrepresentative"],
             breakage=breakage_of(settings["breakage"]) if settings["breakage"] else None,
         )
-    page = preview_text(plans, cores, pictures, notes)
+    page = preview_text(plans, cores, pictures, notes) if plans else ""
+    page += "".join(
+        f"{name}: read from files of another code; nothing to preview\n"
+        for name in samples
+        if name not in compressed
+    )
     page += "".join(f"{measured_line(*material)}\n" for material in measured.items())
     write_text(text, page)
     return page

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from branchcrush.config.units import UNITS
+from branchcrush.config.units import LARGEST, SMALLEST, UNITS
 from branchcrush.errors import GradingError
 from branchcrush.files.compression_tables import CompressionTable, read_compression
 from branchcrush.files.declared import Declared
@@ -29,6 +29,9 @@ from branchcrush.gradings.forms import (
 from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
 from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
+
+# Two sizes of a file that are nearer than this share of them are one.
+_SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,12 @@ class GradingValues:
     def table(self, read: Callable) -> tuple[np.ndarray, np.ndarray, list[float | None]]:
         """Return the radii of the file [m], its other column, and where it is cut [m], if it is."""
         table = read(self["file"], Declared.of(self.section))
+        same = np.flatnonzero(np.diff(table.sizes) <= _SAME * table.sizes[1:])
+        if same.size:
+            raise GradingError(
+                f"{table.sizes[same[0]]:.17g} and {table.sizes[same[0] + 1]:.17g} are one size but "
+                "for rounding: remove one of the lines"
+            )
         ends = [self.section.get(key) for key in ("min", "max")]
         cut = [None if end is None else end * self.to_radius for end in ends]
         return table.sizes * self.to_radius, table.values, cut
@@ -87,6 +96,8 @@ def _sieve(values: GradingValues) -> Grading:
 
 def _density(values: GradingValues) -> Grading:
     radius, density, cut = values.table(read_density_table)
+    # It has any scale, and a sum of the largest numbers is none.
+    density = density / max(density.max(), np.finfo(float).tiny)
     per = Declared.of(values.section).taken("per")
     return from_density(radius, density, values.basis, *cut, per=per)
 
@@ -154,11 +165,24 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
     if form not in FORMS:
         raise GradingError(f"there is no form of grading called {form!r}")
     try:
-        return FORMS[form](GradingValues(section))
+        grading = FORMS[form](GradingValues(section))
+        if file is not None:
+            _refuse_sizes(grading, section)
+        return grading
     except GradingError as error:
         if file is None or str(file) in str(error):
             raise
         raise GradingError(f"{file}: {error}") from None
+
+
+def _refuse_sizes(grading: Grading, section: Mapping[str, Any]) -> None:
+    """Refuse sizes of a file that no grain has: keys of sizes are checked one by one."""
+    smallest, largest = (2.0 * float(radius) for radius in grading.support())
+    if smallest < SMALLEST or largest > LARGEST:
+        raise GradingError(
+            f"diameters are {smallest:.3g} to {largest:.3g} m, and must be from {SMALLEST:g} to "
+            f"{LARGEST:g} m: check the file and the unit, {section['unit']}"
+        )
 
 
 def compression_of(section: Mapping[str, Any]) -> CompressionTable:

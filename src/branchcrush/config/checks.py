@@ -10,15 +10,17 @@ from pydantic import ValidationError
 from branchcrush.config.breakage_checks import breakage_problems
 from branchcrush.config.build import unit_of
 from branchcrush.config.fields import one_line
-from branchcrush.config.grading_files import checked_grading
+from branchcrush.config.grading_files import checked_grading, unread_file
 from branchcrush.config.history import history_loads
 from branchcrush.config.measured_checks import measured_problems
 from branchcrush.config.names import REFINED
+from branchcrush.config.packing_files import packing_problems
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
 from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import representativity
+from branchcrush.loading.states import stress_floor
 from branchcrush.loading.targets import Loading, expected_overlap_ratio
 from branchcrush.packings.contact_laws import contact_law
 
@@ -116,6 +118,8 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     """
     if not isinstance(section, dict):
         return []
+    if "packing" in section:
+        return packing_problems(section["packing"])
     grading, problems = checked_grading(section.get("grading"))
     if grading is None:
         return problems
@@ -141,6 +145,9 @@ def _history_problems(config):
     """Return what is wrong with the file of a history."""
     if config is None:
         return []
+    file = config.thermodynamics.history.file
+    if file and (problems := unread_file(file, "thermodynamics.history")):
+        return [f"config: {line}" for line in problems]
     try:
         history_loads(config.thermodynamics.history.model_dump())
     except GradingError as error:
@@ -184,19 +191,26 @@ def _grain_problems(settings, grading, grains, allowed):
 
 
 def _stress_problems(sample, grading):
-    """Return whether the largest stress would press the grains into each other."""
+    """Return whether a stress would press the grains into each other, or would be none."""
     target, value = sample.loading.target
     if target != "mean_stress":
         return []
-    radius = float(grading.mass_ppf(0.5))
-    overlap = expected_overlap_ratio(value[-1], radius, contact_law(**sample.contact.model_dump()))
-    if overlap <= _DEEPEST_OVERLAP:
-        return []
-    return [
-        f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
-        f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
-        f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
-    ]
+    radius, law = float(grading.mass_ppf(0.5)), contact_law(**sample.contact.model_dump())
+    floor, problems = stress_floor([grading.moment(1)], law), []
+    if min(value) < floor:
+        problems.append(
+            f"loading.mean_stress = {min(value):g} Pa: below {floor:.3g} Pa grains of this "
+            "stiffness are not told from grains that carry no load: ask for more, or lower the "
+            "stiffness of contact"
+        )
+    overlap = expected_overlap_ratio(value[-1], radius, law)
+    if overlap > _DEEPEST_OVERLAP:
+        problems.append(
+            f"loading.mean_stress = {value[-1]:g} Pa: would press grains of the median radius "
+            f"by mass, {radius:.3g} m, together by about {overlap:.0%} of it (at most "
+            f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
+        )
+    return problems
 
 
 def _folder_problems(folder, samples):

@@ -30,7 +30,7 @@ class LinearContact(Section):
     """Frictionless linear normal contact of one stiffness."""
 
     law: Literal["linear"]
-    normal_stiffness: number(above=0, most=1e15, unit="N/m") = Field(
+    normal_stiffness: number(least=1e-9, most=1e15, unit="N/m") = Field(
         1.0e6, description="Normal stiffness of a contact, k_n [N/m]."
     )
 
@@ -39,7 +39,7 @@ class HertzContact(Section):
     """Frictionless Hertz contact of grains of one material."""
 
     law: Literal["hertz"]
-    young_modulus: number(above=0, most=1e15, unit="Pa") = Field(
+    young_modulus: number(least=1e-3, most=1e15, unit="Pa") = Field(
         description="Young's modulus of the grains [Pa].", examples=[70.0e9]
     )
     poisson_ratio: number(least=0, most=0.5) = Field(

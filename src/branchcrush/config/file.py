@@ -19,6 +19,8 @@ _CODE_KEY = re.compile(r"__.*__", re.DOTALL)
 _DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")
 # References can make a short file as large as one likes.
 _MOST_ENTRIES = 1_000_000
+# A study of a thousand samples has less; Snakemake reads it again for every job.
+_LARGEST = 500_000
 
 
 class _Loader(yaml.SafeLoader):
@@ -94,6 +96,12 @@ def config_file_problem(path: str | PathLike[str], *, whole: bool = True) -> str
             "folder with --directory"
         )
     try:
+        size = path.stat().st_size
+        if size > _LARGEST:
+            return (
+                f"config: {path} has {size / 1e6:.1f} MB, and may have {_LARGEST / 1e6:g} MB: "
+                "put lists of sizes into files of their own"
+            )
         content = yaml.load(path.read_text(encoding="utf-8-sig"), Loader=_Loader)
     except UnicodeDecodeError:
         return f"config: {path} is no text in UTF-8: save it as such"

@@ -105,7 +105,9 @@ def unread_file(name: Any, key: str) -> list[str]:
         return []
     path = Path(name)
     try:
-        if path.is_dir():
+        if {"{", "}"} & set(name):
+            what = "has braces, which Snakemake reads as a pattern: give the file another name"
+        elif path.is_dir():
             what = "is a folder; give the name of a file in it"
         elif not path.exists():
             what = f"there is no such file in {Path.cwd()}; names are relative to that folder"

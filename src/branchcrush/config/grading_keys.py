@@ -5,17 +5,14 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from branchcrush.config.fields import Allowed, number, refusal
-from branchcrush.config.units import UNITS
-
-# Of a grain [m]. Outside of them it is the unit that is wrong.
-_SMALLEST, _LARGEST = 1e-9, 1e3
+from branchcrush.config.units import LARGEST, SMALLEST, UNITS
 
 
 def _possible(size, info):
     unit = info.data.get("unit")
-    if unit and not _SMALLEST <= size * UNITS[unit] <= _LARGEST:
+    if unit and not SMALLEST <= size * UNITS[unit] <= LARGEST:
         raise refusal(
-            f"must be from {_SMALLEST:g} m to {_LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
+            f"must be from {SMALLEST:g} m to {LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
             "check it and the unit",
             unit=unit,
         )

@@ -169,6 +169,8 @@ def _forms(kind):
     chooser = next(filter(None, (getattr(extra, "discriminator", None) for extra in extras)), None)
     if chooser is None or typing.get_origin(union) not in (typing.Union, types.UnionType):
         return {}
+    if callable(chooser):  # the keys that are there choose, and each form has a tag
+        return {typing.get_args(each)[1].tag: _bare(each) for each in typing.get_args(union)}
     return {
         typing.get_args(model.model_fields[chooser].annotation)[0]: model
         for model in typing.get_args(union)

@@ -6,9 +6,8 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator
 
 from branchcrush.config.fields import refusal
+from branchcrush.files.dictionary import REFINED
 
-# Ends the name of a sample run with twice the strain steps, to judge its convergence.
-REFINED = "-refined"
 _LONGEST_NAME = 100
 _NAME = rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_NAME - 1}}}"
 # Files and folders of results that no sample may be called.
@@ -43,6 +42,39 @@ def _usable_name(name: Any) -> str:
     if name in _TAKEN:
         raise refusal(f"a name must not be {name}, which results has for all samples")
     return name
+
+
+def distinct_names(sections: dict[str, Any]) -> dict[str, Any]:
+    """Return sections, or refuse names that differ in capitals only.
+
+    Parameters
+    ----------
+    sections : dict
+        By name.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError
+        Two names would be one folder where a file system knows no capitals.
+
+    Examples
+    --------
+    >>> distinct_names({"tiny": 1, "small": 2})
+    {'tiny': 1, 'small': 2}
+    """
+    first: dict[str, str] = {}
+    for name in sections:
+        other = first.setdefault(name.casefold(), name)
+        if other != name:
+            raise refusal(
+                f"{other} and {name} differ in capitals only, and would be one folder on many "
+                "disks: give one of them another name"
+            )
+    return sections
 
 
 SampleName = Annotated[str, BeforeValidator(_usable_name)]

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from branchcrush.errors import ConfigError
+from branchcrush.files.blocks import filled, table
 
-_BEGIN, _END = "<!-- made from config.schema.json: {} -->", "<!-- end -->"
 _NOTHING = {"type": "null"}
 # A sentence, and perhaps a unit before its full stop.
 _DESCRIPTION = re.compile(r"(.*?)(?: \[([^\]]+)\])?\.?", re.DOTALL)
@@ -50,13 +50,11 @@ def with_tables(page: str, schema: Mapping[str, Any]) -> str:
     >>> print(with_tables(page, schema).splitlines()[3])
     | `dpi` | Resolution | dots per inch | 300 | 50 up |
     """
-    for name, table in tables(schema).items():
-        begin = _BEGIN.format(name)
-        place = re.compile(f"({re.escape(begin)}).*?({re.escape(_END)})", re.DOTALL)
-        if not place.search(page):
-            raise ConfigError(f"the page has no place for a table: {begin} and {_END}")
-        page = place.sub(lambda found, made=table: f"{found[1]}\n{made}\n{found[2]}", page)
-    return page
+    blocks = {name: [lines] for name, lines in tables(schema).items()}
+    try:
+        return filled(page, blocks, "from config.schema.json")
+    except ValueError as error:
+        raise ConfigError(str(error)) from None
 
 
 def tables(schema: Mapping[str, Any]) -> dict[str, str]:
@@ -175,6 +173,11 @@ def _resolved(root, value):
     if len(kinds) == 1 and {"$ref", "oneOf"} & kinds[0].keys():
         others = {key: other for key, other in value.items() if key != "anyOf"}
         return {**_resolved(root, kinds[0]), **others}
+    if "oneOf" in value and "discriminator" not in value:
+        # Forms that their keys tell apart: those of the first, and what others have besides.
+        first, *others = (_resolved(root, kind) for kind in value["oneOf"])
+        more = {key: each for other in others for key, each in other["properties"].items()}
+        return {**first, "properties": first["properties"] | {**more, **first["properties"]}}
     if "$ref" not in value:
         return value
     return {**root["$defs"][value["$ref"].rpartition("/")[2]], **value}
@@ -235,7 +238,4 @@ def _plain(number):
 
 
 def _table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(
-        f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |" for row in lines
-    )
+    return "\n".join(table(header, list(rows)))

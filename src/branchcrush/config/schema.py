@@ -6,8 +6,10 @@ from pydantic import (
     AfterValidator,
     BeforeValidator,
     ConfigDict,
+    Discriminator,
     Field,
     StrictBool,
+    Tag,
     ValidationError,
     ValidationInfo,
     WithJsonSchema,
@@ -30,7 +32,8 @@ from branchcrush.config.fields import (
 from branchcrush.config.gradings import GradingSection
 from branchcrush.config.measured import Measured
 from branchcrush.config.messages import problem
-from branchcrush.config.names import NAMES_SCHEMA, SampleName
+from branchcrush.config.names import NAMES_SCHEMA, SampleName, distinct_names
+from branchcrush.config.packing import ReadSample
 from branchcrush.config.schema_parts import EXAMPLE, number_or_list, required_unless
 from branchcrush.errors import ConfigError
 from branchcrush.loading.targets import (
@@ -217,6 +220,7 @@ class Sample(Section):
         seeds = self.seeds if refinement == 1 else self.seeds[: self.refined_seeds]
         values = self.model_dump(exclude_none=True) | {"grains": self.grains, "breakage": None}
         return {
+            "packing": None,
             # In the order of the keys, whichever of them were given.
             **{key: values[key] for key in type(self).model_fields},
             "loading": self.loading.plain(),
@@ -228,10 +232,37 @@ class Sample(Section):
         }
 
 
+def kind_of_sample(section: Any) -> str:
+    """Return whether a sample is compressed here, or read from the files of another code.
+
+    Parameters
+    ----------
+    section : object
+        Of the YAML file, or a model.
+
+    Returns
+    -------
+    {"compressed", "read"}
+
+    Examples
+    --------
+    >>> kind_of_sample({"packing": {"format": "yade"}})
+    'read'
+    """
+    read = "packing" in section if isinstance(section, dict) else isinstance(section, ReadSample)
+    return "read" if read else "compressed"
+
+
+AnySample = Annotated[
+    Annotated[Sample, Tag("compressed")] | Annotated[ReadSample, Tag("read")],
+    Discriminator(kind_of_sample),
+]
+
+
 def _not_empty(samples):
     if not samples:
         raise refusal("must hold at least one sample")
-    return samples
+    return distinct_names(samples)
 
 
 class Config(Section):
@@ -239,7 +270,7 @@ class Config(Section):
 
     model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
 
-    samples: Annotated[dict[SampleName, Sample], AfterValidator(_not_empty)] = Field(
+    samples: Annotated[dict[SampleName, AnySample], AfterValidator(_not_empty)] = Field(
         description="One or more samples by names of your own; results go to results/<name>.",
         json_schema_extra={"minProperties": 1, "propertyNames": NAMES_SCHEMA},
     )
@@ -247,7 +278,7 @@ class Config(Section):
         EnergySplit(), description="How the energy split is binned, and the intervals found."
     )
     thermodynamics: Thermodynamics = Field(Thermodynamics(), description="The crushing model.")
-    measured: dict[SampleName, Measured] = Field(
+    measured: Annotated[dict[SampleName, Measured], AfterValidator(distinct_names)] = Field(
         {},
         description="Materials that a laboratory measured, by names of your own; results go to "
         "results/measured/<name>.",

@@ -18,6 +18,9 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 - `histories` reads a user's strains or stresses in turn.
 - `dictionary` tells what every file of the results holds, each column and key with its type, unit
   and meaning, from the TOML files in `meanings`; `datapackage` makes `datapackage.json` of it.
+- `blocks` fills the places of a page that a command makes, and writes tables in Markdown.
+- `origin` reads what made a result from the file itself; `vtk_xml` writes points and lines for
+  ParaView.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
   leaves none by halves; `scratch` makes folders that are known to be nobody's when their process is
   dead, and removes such ones; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.

@@ -32,7 +32,7 @@ _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate", "crushing")
 # Of samples whose grains break; the first of the seeds that are run again, too.
-_OF_BREAKING = (
+OF_BREAKING = (
     "crushing",
     "crushing_results",
     "crushing_figures",
@@ -40,6 +40,9 @@ _OF_BREAKING = (
     "crushed_grains_figures",
     "crushing_page",
 )
+# Of packings that another code made; and of those made here alone, what is not read.
+_OF_READ = ("read_packing", "read_radii")
+_OF_COMPRESSED = "<sample>/seed_<seed>/packing.data"
 # Of materials that a laboratory measured; the second of those with a compression curve.
 _OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
 
@@ -49,6 +52,7 @@ def data_package(
     run_again: Mapping[str, Sequence[int]],
     measured: Mapping[str, bool] | None = None,
     breaking: Collection[str] = (),
+    read: Collection[str] = (),
 ) -> dict[str, Any]:
     """Return the description of all files of a study, with every column's type, unit and meaning.
 
@@ -65,6 +69,8 @@ def data_package(
         By name of a measured material whether it has a compression curve.
     breaking : collection of str
         Names of the samples whose grains break, and of what of them is run again.
+    read : collection of str
+        Names of the samples whose packings another code made.
 
     Returns
     -------
@@ -92,8 +98,12 @@ def data_package(
             paths = _paths_of_materials(file, measured or {})
         else:
             everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
-            if file.rule in _OF_BREAKING:
+            if file.rule in OF_BREAKING:
                 everything = {name: everything[name] for name in everything if name in breaking}
+            if file.rule in _OF_READ:
+                everything = {name: everything[name] for name in everything if name in read}
+            if file.path == _OF_COMPRESSED:
+                everything = {name: everything[name] for name in everything if name not in read}
             paths = _paths(file.path, everything)
         resources += [_resource(file, path) for path in paths]
     return {

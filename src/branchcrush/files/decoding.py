@@ -6,6 +6,8 @@ from pathlib import Path
 
 from branchcrush.errors import GradingError
 
+# A table of a million sizes has some 20 MB.
+_LARGEST = 50_000_000
 # What begins a zip (.xlsx, .ods) and a workbook of old (.xls).
 ZIP, OLD_WORKBOOK = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 
@@ -24,7 +26,7 @@ def raw_content(path: str | PathLike[str]) -> bytes:
     Raises
     ------
     GradingError
-        When it is missing, a folder, or cannot be read.
+        When it is missing, a folder, of more than 50 MB, or cannot be read.
 
     Examples
     --------
@@ -36,6 +38,12 @@ def raw_content(path: str | PathLike[str]) -> bytes:
     if path.is_dir():
         raise GradingError(f"{path}: is a folder; give the name of a file in it")
     try:
+        size = path.stat().st_size
+        if size > _LARGEST:
+            raise GradingError(
+                f"{path}: has {size / 1e6:.0f} MB, and a table may have {_LARGEST / 1e6:.0f} MB: "
+                "write it with fewer digits or fewer lines"
+            )
         return path.read_bytes()
     except FileNotFoundError:
         raise GradingError(

@@ -17,6 +17,8 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+# Ends the name of a sample run with twice the strain steps, to judge its convergence.
+REFINED = "-refined"
 _MEANINGS = Path(__file__).with_name("meanings")
 _PLACES = {"sample": r"[^/]+", "material": r"[^/]+", "seed": r"\d+", "rule": r"\w+"}
 _BRACES = re.compile(r"\{([^{}]*)\}")

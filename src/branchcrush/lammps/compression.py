@@ -15,6 +15,7 @@ from branchcrush.errors import SimulationError
 from branchcrush.files.scratch import scratch_folder
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.files import compress_file, last_frame, write_data_file
+from branchcrush.lammps.links import linked
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.output import DUMPS, Compression, read_compression
 from branchcrush.lammps.run import run_script
@@ -166,13 +167,9 @@ def compress(
     folder.mkdir(parents=True, exist_ok=True)
     with (
         scratch_folder(".compress-", folder) as scratch,
-        scratch_folder("branchcrush-") as links,
+        linked(inputs, scratch) as links,
     ):
-        scratch = scratch.resolve()
         write_data_file(scratch / "packing.data", positions, radii, edge)
-        # LAMMPS reads no path with a space in it, and the project may lie in such a one.
-        (links / "inputs").symlink_to(Path(inputs).resolve())
-        (links / "output").symlink_to(scratch)
         stopped = run_script(
             links / "inputs" / "in.compress",
             {

@@ -15,6 +15,7 @@ from branchcrush.files.scratch import scratch_folder
 from branchcrush.lammps.compression import keep
 from branchcrush.lammps.crushing import crushing_task
 from branchcrush.lammps.files import write_data_file
+from branchcrush.lammps.links import linked
 from branchcrush.lammps.output import read_compression
 from branchcrush.lammps.progress import Job, Progress
 from branchcrush.lammps.run import declared_variables, run_task
@@ -131,11 +132,9 @@ def crush(
             if progress is None
             else Path(progress)
         ).resolve()
-        links = stack.enter_context(scratch_folder("branchcrush-"))
+        links = stack.enter_context(linked(inputs, work))
         kept = Progress(work)
         started = _started(kept, job, positions, edge)
-        (links / "inputs").symlink_to(Path(inputs).resolve())
-        (links / "output").symlink_to(work)
         stopped = run_task(
             crushing_task,
             {"folder": str(work), "inputs": str(links / "inputs")},

@@ -1,41 +1,28 @@
 """Crushing: a compression in LAMMPS in which overloaded grains break, led from Python."""
 
-import contextlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import root_scalar
 
 from branchcrush.breakage.account import Account
-from branchcrush.breakage.criterion import CRITERIA, largest_force
+from branchcrush.breakage.criterion import largest_force
 from branchcrush.breakage.grains import Grains, exchange, first_grains
 from branchcrush.breakage.rules import Breakage
 from branchcrush.errors import SimulationError
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.progress import Job, Progress, Saved
-from branchcrush.lammps.session import Rest, Session
+from branchcrush.lammps.session import Session
+from branchcrush.lammps.straining import Ended, Strained
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.geometry import solid_volume
 
 # Evaluations, and the unbalanced force ratio, up to which fragments settle between two stages.
 _STAGE_EVALUATIONS, _STAGE_TOLERANCE = 100, 0.1
-# Of the search for the strain at which the next grain breaks, and how near it gets, over the strain
-# step and the tolerance: nearer, the packing leaps past the strength of the grain.
-_MOST_TRIALS, _SHORTEST = 50, 1.0e-2
 
 
-class Ended(Exception):
-    """A run ends before its last target, validly: the reason."""
-
-
-class _Near(Exception):
-    """A strain is found at which the first grain breaks."""
-
-
-class Crushing:
+class Crushing(Strained):
     """A packing that is crushed: what LAMMPS has of it, its grains, and what was counted.
 
     Parameters
@@ -53,13 +40,10 @@ class Crushing:
     def __init__(
         self, session: Session, rules: Breakage, grains: Grains, seed: int, progress: Progress
     ) -> None:
-        self.session, self.rules, self.grains, self.seed = session, rules, grains, seed
-        self.progress = progress
+        super().__init__(session, rules, grains)
+        self.seed, self.progress = seed, progress
         self.account = Account()
         self.settings: dict[str, Any] = {}
-        # Of the grains at rest: the packing, and the stress of each over its strength.
-        self.rest: Rest = session.rest()
-        self.overload = self._overload()
 
     def begin(self) -> None:
         """Approach, to where strain steps begin: states 0 and 1."""
@@ -121,91 +105,6 @@ class Crushing:
         self._book(kept)
         return reached != edge
 
-    def _first_event(self, kept, loads):
-        """Strain to where the first grain breaks, and return the edge there.
-
-        `loads` holds the largest overload at both ends of the strain step, by edge.
-        """
-        before, end = loads
-        tolerance = self.rules.event_tolerance
-
-        def excess(edge):
-            if edge not in loads:
-                self._restore(kept)
-                self._strain_to(edge, is_state=0, tolerance=self.rules.step_tolerance)
-                loads[edge] = self._largest_overload
-                if 1.0 <= loads[edge] <= 1.0 + tolerance:
-                    raise _Near
-            # A little above, where the grain does break.
-            return loads[edge] - 1.0 - tolerance / 2.0
-
-        # Where the packing leaps past the strength, there is no such place: it ends at the leap.
-        shortest = _SHORTEST * tolerance * abs(end - before)
-        with contextlib.suppress(_Near):
-            root_scalar(excess, bracket=(before, end), xtol=shortest, maxiter=_MOST_TRIALS)
-        found = min((edge for edge in loads if loads[edge] >= 1.0), key=lambda at: abs(at - before))
-        if self.session.edge != found:
-            self._restore(kept)
-            self._strain_to(found, is_state=0, tolerance=self.rules.step_tolerance)
-        return found
-
-    @property
-    def _largest_overload(self):
-        return float(self.overload.max(initial=0.0))
-
-    def _strain_to(self, edge, *, is_state, tolerance):
-        session = self.session
-        session.set_edge(edge)
-        session.set(is_state=is_state, tolerance=tolerance)
-        session.include("strain")
-        self._relax()
-
-    def _relax(self):
-        self.session.include("relax")
-        if self.session.failure:
-            raise Ended(self.session.failure)
-        self._look()
-
-    def _look(self):
-        self.rest = self.session.rest()
-        self.overload = self._overload()
-
-    def _overload(self):
-        """Return the stress of each grain over its strength, 0 of those that never break."""
-        breaks = 2.0 * self.grains.radius > self.rules.smallest_diameter
-        return np.where(breaks, self.rest_stress / self.grains.strength, 0.0)
-
-    @property
-    def rest_stress(self) -> NDArray:
-        """Stress that each grain feels, by the criterion [Pa]."""
-        return CRITERIA[self.rules.criterion].stress(self.rest.sides, self.grains.radius)
-
-    def _kept(self):
-        """Return what a strain step is taken back to, and the force on the cell before it."""
-        rest, session = self.rest, self.session
-        return rest.number, rest.position, session.edge, session.read("work"), self._push
-
-    def _restore(self, kept):
-        """Take back a strain step: grains, cell and work."""
-        number, position, edge, work, _ = kept
-        session = self.session
-        half = f"{edge / 2.0:.17g}"
-        cell = " ".join(f"{axis} final -{half} {half}" for axis in "xyz")
-        # In whichever order leaves no grain outside its cell on the way.
-        larger = edge > session.edge
-        for place in (larger, not larger):
-            if place:
-                session.command(f"change_box all {cell} units box")
-            else:
-                session.set_positions(number, position)
-        if not session.periodic:
-            session.include("walls")
-        session.command("run 0 post no")
-        session.include("mass")
-        session.set_edge(edge)
-        session.set(work=work)
-        self._look()
-
     def _book(self, kept):
         *_, edge, work, push = kept
         # The trapezoidal rule between two packings at rest: the work of dL is the virial dL/L.
@@ -213,10 +112,6 @@ class Crushing:
         self.account.strained(
             self.session.read("work") - work, self.rest.elastic_energy, quasi_static
         )
-
-    @property
-    def _push(self):
-        return self.session.read("virial") / self.session.edge
 
     def _cascade(self, saved=None):
         """Let grains break, round after round, until none is overloaded at rest."""

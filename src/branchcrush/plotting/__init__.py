@@ -11,10 +11,13 @@
 `crushing`, `crushing_paths`, `form_lines`, `form_words`
     The panels of the crushing model, against C and along the strain; how its forms are drawn, and
     what is said of them below a figure.
-`crushed`, `crushed_figures`
-    Grains that break: panels, and the figures of a sample.
+`crushed`, `crushed_forms`, `crushed_lengths`, `crushed_grains`, `crushed_figures`
+    Grains that break: panels, and the figures of a sample; without a simulation
+    (`crushing_predicted`).
 `study`, `study_networks`
     The panels of all samples.
+`results`
+    What `plot()` of a result of `branchcrush.open_study` draws: `PANELS`, a line each.
 `style`, `intervals`
     How every figure looks: `figure`, `STATES`, colours and sizes; how an estimate with its interval
     is drawn.

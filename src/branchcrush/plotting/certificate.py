@@ -47,6 +47,8 @@ def plot_rest(states: Table, limits: Mapping[str, float], ax: Axes | None = None
         ("inertial_number", "inertial number", OTHER),
         ("stress_identity_error", "stress of branches against boundary", MODEL),
     ):
+        if limits[column] is None:  # of packings that another code made, which do not tell it
+            continue
         shown = loaded[column].clip(lower=1e-16)
         ax.semilogy(loaded["solid_fraction"], shown, ".", color=color, ms=3, label=label)
         ax.axhline(limits[column], color=color, ls="--", lw=0.8)

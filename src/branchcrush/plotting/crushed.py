@@ -1,17 +1,16 @@
-"""Panels of grains that break: compression line, gradings, where the work went, C and breakage."""
+"""Panels of grains that break: compression line, jamming point, gradings, where the work went."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import MaxNLocator, NullLocator
 
-from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.plotting.form_lines import plain_decades
 from branchcrush.plotting.gradings import mark_sizes
 from branchcrush.plotting.intervals import draw_band
-from branchcrush.plotting.style import FAINT, FORMS, MEASURED, MODEL, OTHER, axes, legend_above
+from branchcrush.plotting.style import FAINT, MEASURED, MODEL, OTHER, axes, legend_above
 
 # Where the work went, the largest part first, with labels and colours.
 PARTS: Mapping[str, tuple[str, str]] = {
@@ -63,13 +62,19 @@ def plot_line(
         ax.plot(rows["mean_stress_Pa"] / 1e6, rows["void_ratio"], color=FAINT, lw=0.8, label=label)
     if len(line):
         mean = line.groupby("state")[["predicted_stress_Pa", "predicted_void_ratio"]].mean()
-        label = "from the gradings alone"
-        ax.plot(mean.iloc[:, 0] / 1e6, mean.iloc[:, 1], color=MODEL, label=label)
-        _law(ax, line, summary)
+        if mean.notna().all(axis=1).any():
+            label = "from the gradings alone"
+            ax.plot(mean.iloc[:, 0] / 1e6, mean.iloc[:, 1], color=MODEL, label=label)
+        slope = summary["slope"]
+        # With fewer states that yield there is no line yet that a law could stand beside.
+        if slope is not None and np.isfinite(slope):
+            _law(ax, line, summary)
     ax.set(xscale="log", yscale="log", xlabel="mean stress p [MPa]", ylabel="void ratio e [-]")
     plain_decades(ax.xaxis)
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.2g}"))
-    ax.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{value:.2g}"))
+    # Void ratios span less than a decade, of which marks at 1, 2 and 5 would leave one.
+    ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.yaxis.set_minor_locator(NullLocator())
     return legend_above(ax, 2)
 
 
@@ -182,112 +187,3 @@ def plot_energy(means: Table, ax: Axes | None = None) -> Axes:
     ax.set(xlabel=_DENSITY, ylabel="share of the work since\nthe first breakage [%]")
     ax.set_ylim(min(0.0, ax.get_ylim()[0]), 100.0)
     return legend_above(ax, 1)
-
-
-def plot_measures(means: Table, beside: Table, ax: Axes | None = None) -> Axes:
-    """Draw the measured C and B, and the C of every form of the crushing model.
-
-    Parameters
-    ----------
-    means, beside : DataFrame
-        `crushing_means.csv` and `crushing_beside_forms.csv`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    for name, marker, label in (
-        ("crushing_by_random_contacts", "s", "C of Eq. 4"),
-        ("crushing_by_contacts", "o", r"C of measured $\langle l^3 \rangle$"),
-        ("einav_breakage", "D", "B of Einav"),
-    ):
-        _points(ax, means, name, 1.0, marker, label)
-    _forms(ax, beside, "crushing", 1.0)
-    ax.set(xlabel=_DENSITY, ylabel="C or B [-]", ylim=(0.0, 1.1))
-    return legend_above(ax, 2)
-
-
-def plot_stress(
-    means: Table, beside: Table, controls: Sequence[Table], ax: Axes | None = None
-) -> Axes:
-    """Draw the mean stress beside every form, and that of grains that do not break.
-
-    Parameters
-    ----------
-    means, beside : DataFrame
-        `crushing_means.csv` and `crushing_beside_forms.csv`.
-    controls : list of DataFrame
-        `path.csv` of each seed whose grains do not break.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    _points(ax, means, "mean_stress_Pa", 1e-6, "o", "simulated")
-    _forms(ax, beside, "stress_Pa", 1e-6)
-    for k, path in enumerate(controls):
-        rows = path[path["carries_load"].astype(bool) & (path["leg"] == "loading")]
-        label = None if k else "grains do not break"
-        ax.plot(
-            rows["solid_fraction"], rows["mean_stress_Pa"] / 1e6, color=FAINT, lw=0.8, label=label
-        )
-    ax.set(xlabel=_DENSITY, ylabel="mean stress p [MPa]", yscale="log")
-    plain_decades(ax.yaxis)
-    return legend_above(ax, 2)
-
-
-def plot_dissipation(means: Table, beside: Table, ax: Axes | None = None) -> Axes:
-    """Draw what was lost since the first breakage beside every form, and the work of compaction.
-
-    Parameters
-    ----------
-    means, beside : DataFrame
-        `crushing_means.csv` and `crushing_beside_forms.csv`.
-    ax : Axes, optional
-
-    Returns
-    -------
-    Axes
-    """
-    ax = axes(ax)
-    _points(ax, means, "dissipated_J_per_m3", 1e-6, "o", "simulated")
-    _points(ax, means, "compaction_work_J_per_m3", 1e-6, "x", r"$\int p\, d\epsilon_J$, by rods")
-    _forms(ax, beside, "dissipated_J_per_m3", 1e-6)
-    ax.set(xlabel=_DENSITY, ylabel="dissipated [MJ/m³]")
-    ax.set_ylim(bottom=0.0)
-    return legend_above(ax, 2)
-
-
-def _points(ax: Axes, means: Table, name: str, scale: float, marker: str, label: str) -> None:
-    """Draw means over seeds as points, and the halved step's smaller."""
-    for halved, rows in means.groupby("halved_step"):
-        style = {"ms": 2.0, "alpha": 0.5} if halved else {"label": label}
-        ax.plot(
-            rows["solid_fraction"],
-            scale * rows[name],
-            marker,
-            color="k",
-            mfc="none",
-            gid=name,
-            zorder=4,
-            **style,
-        )
-
-
-def _forms(ax: Axes, beside: Table, name: str, scale: float) -> None:
-    """Draw what every form says."""
-    for form in FORM_LABELS:
-        rows = beside[beside["form"] == form]
-        if len(rows):
-            ax.plot(
-                rows["solid_fraction"],
-                scale * rows[name],
-                "--" if form == "einav" else "-",  # else it hides the paper's, of the same C
-                color=FORMS[form],
-                label=FORM_LABELS[form],
-                gid=form,
-            )

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting import crushed
+from branchcrush.plotting import crushed, crushed_forms
 from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import drawn, figure, grid, reason
 
@@ -92,7 +92,7 @@ def draw_measures(
     """
     why = None if summary["breakages"] else _NONE_BROKE
     with figure(path, dpi) as ax:
-        drawn(crushed.plot_measures, why, means, beside, ax=ax)
+        drawn(crushed_forms.plot_measures, why, means, beside, ax=ax)
 
 
 def draw_forms(
@@ -114,8 +114,8 @@ def draw_forms(
         `path.csv` of each seed whose grains do not break.
     """
     with figure(path, dpi, *grid(1, 2)) as panels:
-        crushed.plot_stress(means, beside, controls, ax=panels[0])
-        crushed.plot_dissipation(means, beside, ax=panels[1])
+        crushed_forms.plot_stress(means, beside, controls, ax=panels[0])
+        crushed_forms.plot_dissipation(means, beside, ax=panels[1])
 
 
 def draw_packing(

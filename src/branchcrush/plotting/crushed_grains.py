@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
+from branchcrush.plotting.form_lines import plain_decades
 from branchcrush.plotting.style import (
     FAINT,
     MEASURED,
@@ -130,7 +131,7 @@ def plot_exponents(exponents: Table, ax: Axes | None = None) -> Axes:
         ("exponent", "grains break", MODEL),
         ("control_exponent", "grains do not break", MEASURED),
     ):
-        if name in exponents:
+        if name in exponents and np.isfinite(exponents[name]).any():
             ax.plot(phi, exponents[name], "o-", color=color, label=label)
             limits = exponents[name + "_low"], exponents[name + "_high"]
             ax.fill_between(phi, *limits, color=color, alpha=0.15, linewidth=0)
@@ -159,18 +160,23 @@ def plot_loads(loads: Table, ax: Axes | None = None) -> Axes:
     """
     ax = axes(ax)
     for kind, color, marker in (("first grains", MEASURED, "s"), ("fragments", MODEL, "o")):
-        of = loads[loads["kind"] == kind]
+        of = loads[(loads["kind"] == kind) & np.isfinite(loads["largest_force_N"])]
+        if not len(of):
+            continue
         force = of["largest_force_N"]
         low = np.maximum(of["largest_force_low_N"], force / 10.0)  # none below 0 on this axis
         error = np.nan_to_num(np.array([force - low, of["largest_force_high_N"] - force]))
         middle = np.sqrt(of["low"] * of["high"])
         ax.errorbar(middle, force, yerr=error, fmt=marker + "-", color=color, label=kind)
+    if not ax.containers:
+        return reason(ax, "no grain bears load at the end")
     ax.set_xscale("log", base=2)
     ax.set_yscale("log")
     ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     ax.axvline(1.0, color=FAINT, linestyle=":")
     ax.set_xlabel("diameter/comminution limit [-]")
     ax.set_ylabel("mean largest force [N]")
+    plain_decades(ax.yaxis)
     legend_above(ax, 2)
     return ax
 

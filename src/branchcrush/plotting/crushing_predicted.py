@@ -5,7 +5,7 @@ import os
 from matplotlib.axes import Axes
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting.style import MEASURED, MODEL, axes, figure, grid
+from branchcrush.plotting.style import MEASURED, MODEL, axes, figure, grid, reason
 
 LABELS = {
     "grains_ratio": "grains over those before [-]",
@@ -71,7 +71,7 @@ def plot_predicted_line(predicted: Table, beside: Table, ax: Axes | None = None)
 
 
 def draw_crushing_predicted(
-    path: str | os.PathLike, dpi: int, predicted: Table, beside: Table
+    path: str | os.PathLike, dpi: int, predicted: Table, beside: Table, why: str | None = None
 ) -> None:
     """Draw grains, the compression line and the breakage, predicted beside simulated.
 
@@ -82,7 +82,13 @@ def draw_crushing_predicted(
     dpi : int
     predicted, beside : DataFrame
         As for `plot_predicted`.
+    why : str, optional
+        Why nothing is predicted.
     """
+    if why is not None:
+        with figure(path, dpi) as ax:
+            reason(ax, why)
+        return
     with figure(path, dpi, *grid(1, 3)) as (numbers, line, breakage):
         plot_predicted("grains_ratio", predicted, beside, numbers)
         plot_predicted_line(predicted, beside, line)

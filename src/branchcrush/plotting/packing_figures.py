@@ -65,6 +65,8 @@ def draw_packing(
     compressed: Table,
     loading_path: Table,
     radius_max: float,
+    *,
+    read: bool = False,
 ) -> Figure:
     """Draw Fig. 4, a packing before and after its loading to one scale, and return it.
 
@@ -81,6 +83,8 @@ def draw_packing(
         `path.csv` of this packing.
     radius_max : float
         At the dark end of the colours [m].
+    read : bool
+        Whether another code made the packing, whose first state is none as placed.
 
     Returns
     -------
@@ -95,8 +99,9 @@ def draw_packing(
         last_edge = end["volume_m3"] ** (1 / 3)
         plot_packing(positions, compressed["radius_m"].to_numpy(), last_edge, **scale, ax=after)
         first = loading_path["solid_fraction"].iloc[0]
-        before.set_title(rf"placed at random, $\phi$ = {first:.3f}")
-        after.set_title(rf"compressed, $\phi$ = {end['solid_fraction']:.3f}")
+        words = ("first state", "densest state") if read else ("placed at random", "compressed")
+        before.set_title(rf"{words[0]}, $\phi$ = {first:.3f}")
+        after.set_title(rf"{words[1]}, $\phi$ = {end['solid_fraction']:.3f}")
     return before.figure
 
 

@@ -1,6 +1,7 @@
 """How every figure looks, and how it is saved."""
 
 import os
+import sys
 import textwrap
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,7 +14,9 @@ from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
 
-matplotlib.use("Agg")
+# Jobs draw into files alone. Who drew before, or a notebook, has chosen where figures are shown.
+if "matplotlib.pyplot" not in sys.modules and "MPLBACKEND" not in os.environ:
+    matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
 MEASURED, MODEL, OTHER, FAINT = "#1f4e79", "#c1440e", "#3a7d44", "#9aa5b1"
@@ -33,7 +36,7 @@ SIZE = (85.0 / 25.4, 66.0 / 25.4)
 # Solid fractions are drawn on an axis that is at least so wide [-].
 LEAST_SPREAD = 0.05
 
-_STYLE = {
+STYLE = {
     "font.size": 8,
     "axes.labelsize": 8,
     "axes.titlesize": 8,
@@ -122,7 +125,7 @@ def figure(
     ...     (Path(folder) / "new" / "line.png").exists()
     True
     """
-    with plt.rc_context(_STYLE):
+    with plt.rc_context(STYLE):
         drawing, ax = plt.subplots(
             *panels,
             figsize=size,

@@ -23,9 +23,12 @@ needs the contacts of many seeds is given what reads those of one, and holds no 
     The elastic law before crushing, and what of the packings' stress it does not give back.
 `thermodynamics`, `crushing_model`, `forms_of_sample`, `crushing_curves`, `crushing_bands`
     The crushing model in all its forms, on the elastic energy that was measured.
-`crushed`, `crushed_path`, `crushed_sizes`, `crushed_gradings`, `crushed_line`, `crushed_forms`
-    Grains that break: states of one packing, and of all seeds gradings, compression line, means,
-    the forms of the model beside them; `crushed_words` says what is undefined or not checked.
+`crushed`, `crushed_path`, `crushed_sizes`, `crushed_gradings`, `crushed_lengths`, `crushed_line`
+    Grains that break: states of one packing, and of all seeds gradings, branch lengths, compression
+    line, means, and the forms of the model beside them (`crushed_forms`); `crushed_words` says what
+    is undefined or not checked.
+`crushing_predicted`, `crushing_prediction`
+    The crushing without a simulation, beside the simulated one, and how far it is off.
 `crushed_grains`, `crushed_roc`, `crushed_survival`, `crushed_exponents`
     Who breaks and who survives, and how energy is split meanwhile; `crushed_grains_words` says so.
 `grading`

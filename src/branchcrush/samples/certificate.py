@@ -1,7 +1,8 @@
 """Rule certificate: which saved states are at rest, with a closed account, for fits to use."""
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -24,6 +25,35 @@ LIMITS = {
     "escaped": 0,
     "lost": 0,
 }
+# Of packings that another code made, whose files tell no work, no motion and no boundary's stress:
+# the balance of forces has a limit of the user's own, and the law is told of in the notes.
+_OF_READ = ("escaped", "lost")
+
+
+def limits_of(packing: Mapping[str, Any] | None) -> Mapping[str, float]:
+    """Return the limits that the states of a sample are held to.
+
+    Parameters
+    ----------
+    packing : mapping or None
+        Settings of packings that another code made, with `largest_unbalanced_force_ratio`; None of
+        those that were compressed here.
+
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
+    >>> limits_of({"largest_unbalanced_force_ratio": 0.01})
+    {'unbalanced_force_ratio': 0.01, 'escaped': 0, 'lost': 0}
+    """
+    if packing is None:
+        return LIMITS
+    known = {name: LIMITS[name] for name in _OF_READ}
+    return {"unbalanced_force_ratio": packing["largest_unbalanced_force_ratio"], **known}
+
+
 # What a state or a sample is called whose numbers stand, with something to be read beside them.
 NOTED = "certified with notes"
 _MEANING = {
@@ -43,6 +73,7 @@ def certificate_tables(
     paths: Sequence[pd.DataFrame],
     steps: Sequence[pd.DataFrame],
     radii: Sequence[ArrayLike],
+    limits: Mapping[str, float] = LIMITS,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the certificates of all states and the jamming points of all packings.
 
@@ -54,6 +85,8 @@ def certificate_tables(
         `path.csv` and `steps.csv` of each seed.
     radii : list of array_like
         Of the grains of each seed [m].
+    limits : mapping
+        The largest value of each measure that is judged.
 
     Returns
     -------
@@ -64,13 +97,17 @@ def certificate_tables(
     """
     floors = [stress_floor(seed, law) for seed in radii]
     points = jamming_points(seeds, steps, paths, law.exponent, floors)
-    return state_certificates(seeds, paths), points
+    return state_certificates(seeds, paths, limits), points
 
 
-def state_certificates(seeds: Sequence[int], paths: Sequence[pd.DataFrame]) -> pd.DataFrame:
+def state_certificates(
+    seeds: Sequence[int],
+    paths: Sequence[pd.DataFrame],
+    limits: Mapping[str, float] = LIMITS,
+) -> pd.DataFrame:
     """Return the measures and the verdict of every saved state of every seed.
 
-    A state is certified when all its measures are within `LIMITS` and it carries load. Notes do
+    A state is certified when all its measures are within their limits and it carries load. Notes do
     not take a certificate away.
 
     Parameters
@@ -78,6 +115,8 @@ def state_certificates(seeds: Sequence[int], paths: Sequence[pd.DataFrame]) -> p
     seeds : list of int
     paths : list of DataFrame
         The `path.csv` of each seed.
+    limits : mapping
+        The largest value of each measure that is judged.
 
     Returns
     -------
@@ -89,7 +128,7 @@ def state_certificates(seeds: Sequence[int], paths: Sequence[pd.DataFrame]) -> p
         work = path["work_J"].where(path["work_J"] > 0)
         measures = _measures(path, work)
         verdicts = [
-            _verdict(row, carries, overlap)
+            _verdict(row, carries, overlap, limits)
             for (_, row), carries, overlap in zip(
                 measures.iterrows(), path["carries_load"], path["overlap_ratio_95"], strict=True
             )
@@ -123,10 +162,10 @@ def _measures(path, work):
     )
 
 
-def _verdict(measures, carries_load, overlap):
+def _verdict(measures, carries_load, overlap, limits):
     reasons = [
         f"{_MEANING[name]} {measures[name]:.3g}, at most {limit:g}"
-        for name, limit in LIMITS.items()
+        for name, limit in limits.items()
         # Without load some measures have no meaning and are not a number; with it all have.
         if measures[name] > limit or (carries_load and np.isnan(measures[name]))
     ]

@@ -10,6 +10,7 @@ from branchcrush.errors import FitError
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.samples.crushed_forms import beside_forms, no_forms, pooled_law
 from branchcrush.samples.crushed_gradings import crushed_gradings, stages_of
+from branchcrush.samples.crushed_lengths import crushed_lengths, length_counts
 from branchcrush.samples.crushed_line import compression_line
 from branchcrush.samples.crushed_means import crushed_means, per_volume
 from branchcrush.samples.crushed_path import control_law, crushed_path
@@ -27,6 +28,7 @@ class CrushedResults(NamedTuple):
     states: pd.DataFrame  # crushing_states.csv
     means: pd.DataFrame  # crushing_means.csv
     gradings: pd.DataFrame  # crushing_gradings.csv
+    lengths: pd.DataFrame  # crushing_lengths.csv
     line: pd.DataFrame  # crushing_line.csv
     beside: pd.DataFrame  # crushing_beside_forms.csv
     summary: dict  # crushing.json
@@ -60,20 +62,21 @@ def crushed_results(
     -------
     CrushedResults
     """
-    parts, grains = [], {}
+    parts, grains, counted = [], {}, {}
     for half, group in ((False, runs), (True, halved)):
         for seed, read in group.items():
             path, of_state, branches = read()
             rows = crushed_path(path, of_state, branches, controls[seed], sample)
             parts.append(rows.assign(seed=seed, halved_step=half))
             if not half:
-                grains[seed] = of_state
+                grains[seed], counted[seed] = of_state, length_counts(branches, of_state)
     states = per_volume(pd.concat(parts, ignore_index=True))
     states = states[["seed", "halved_step", *states.columns.drop(["seed", "halved_step"])]]
     means = crushed_means(states, intervals)
     stages = stages_of(states)
     line, summary = compression_line(states, controls, sample, intervals)
     firsts = [rows.loc[rows["state"] == 0, "radius_m"] for rows in grains.values()]
+    lengths, of_branches = crushed_lengths(counted, grains, states, stages, intervals)
     beside, said = _beside(means, firsts, controls, summary, sample, settings)
     summary = {
         "comminution_limit_m": sample.limit,
@@ -84,13 +87,14 @@ def crushed_results(
         "halved_seeds": sorted(halved),
         "stages": stages,
         **end_of(states, intervals),
+        **of_branches,
         **energy_summary(states, intervals),
         **summary,
     }
     sentences = crushing_sentences(summary, states)
     summary = {**summary, "sentences": sentences, "form_sentences": said}
     gradings = crushed_gradings(grains, states, stages, sample, intervals)
-    return CrushedResults(states, means, gradings, line, beside, summary)
+    return CrushedResults(states, means, gradings, lengths, line, beside, summary)
 
 
 def read_crushing(

@@ -85,7 +85,7 @@ def _hazard(table: pd.DataFrame) -> list[str]:
     else:
         verdict = "whether many contacts shield a large grain is not decided"
     return [
-        "Of 100 large grains (radius above half of the largest) break from one state to the next "
+        "Of the large grains (radius above half of the largest) break from one state to the next "
         f"{_percent(a)} with 4 to 5 contacts, {_percent(b)} with 12 to 19: {verdict}."
     ]
 
@@ -97,14 +97,18 @@ def _left(table: pd.DataFrame) -> list[str]:
     small, large = (Interval.read(of.iloc[place], "share") for place in (0, -1))
     apart = small.high < large.low or large.high < small.low
     return [
-        f"Of 100 first grains are left {_percent(small)} of the smallest third and "
+        f"Of the first grains are left {_percent(small)} of the smallest third and "
         f"{_percent(large)} of the largest: "
         + ("they differ." if apart else "whether they differ is not decided.")
     ]
 
 
 def _percent(value: Interval) -> str:
-    return interval_text(*(100.0 * part for part in value))
+    """Return a share in whole percent; without an interval where the seeds tell none."""
+    share, *limits = (100.0 * part for part in value)
+    if np.isnan(limits).any():
+        return f"{share:.0f} % (no interval)"
+    return f"{share:.0f} % ({limits[0]:.0f} to {limits[1]:.0f} %)"
 
 
 def _split(table: pd.DataFrame) -> list[str]:
@@ -133,5 +137,5 @@ def _strengths(table: pd.DataFrame) -> list[str]:
     return [
         f"Grains broke at stresses {100.0 * row['median_overshoot']:.0f} % above their strength "
         f"(median; 90 % of them within {100.0 * row['overshoot_90']:.0f} %), "
-        f"{int(row['below'])} below it: strain steps and avalanches overshoot."
+        f"{int(row['below']) or 'none'} below it: strain steps and avalanches overshoot."
     ]

@@ -1,6 +1,6 @@
 """Rule crushing_results: what the grains of a state are like beside the first ones."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -112,11 +112,36 @@ def number_exponent(diameter: NDArray, low: float, high: float) -> float:
     >>> round(number_exponent(sizes, 0.01, 0.1), 2)
     2.0
     """
+    ordered = np.sort(diameter)
+    return exponent_of_larger(
+        lambda size: len(ordered) - np.searchsorted(ordered, size, side="right"), low, high
+    )
+
+
+def exponent_of_larger(larger: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+    """Return the exponent with which the number of larger grains falls between two sizes.
+
+    Parameters
+    ----------
+    larger : callable
+        Takes diameters [m] and returns how many grains are larger, or their share.
+    low, high : float
+        As for `number_exponent` [m].
+
+    Returns
+    -------
+    float
+        alpha [-]; nan where the range is narrower than a factor of 2.
+
+    Examples
+    --------
+    >>> round(exponent_of_larger(lambda size: size**-2.5, 0.01, 0.1), 2)
+    2.5
+    """
     if not high > _RANGE * low:
         return float("nan")
     sizes = np.geomspace(low, high, _COUNTED)
-    larger = len(diameter) - np.searchsorted(np.sort(diameter), sizes, side="right")
     try:
-        return -float(power_law_fit(sizes, larger.astype(float)).exponent)
+        return -float(power_law_fit(sizes, np.asarray(larger(sizes), dtype=float)).exponent)
     except FitError:
         return float("nan")

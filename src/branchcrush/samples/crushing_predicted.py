@@ -12,6 +12,7 @@ from branchcrush.crushing.breakage import einav_breakage
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
+from branchcrush.samples.crushed_sizes import exponent_of_larger
 from branchcrush.statistics.intervals import interval_of_refits, seed_draws
 
 # What is predicted, in the order of the tables.
@@ -27,8 +28,6 @@ QUANTITIES = (
 )
 # Of the ultimate grading of Einav's breakage, which goes down to the finest fragment.
 ULTIMATE_ALPHA = 2.6
-# Diameters at which grains are counted, even in their logarithm.
-_COUNTED = 16
 
 
 def predicted_states(
@@ -194,11 +193,7 @@ def _measures(
     breakage = np.nan
     if finest < largest:
         breakage = einav_breakage(before, now, ULTIMATE_ALPHA, largest, finest)
-    sizes = np.geomspace(rules.smallest_diameter, smallest, _COUNTED)
-    larger = 1.0 - now.number_cdf(sizes / 2.0)
-    known = larger > 0.0
-    # Fewer than an octave of fragments tell no exponent.
-    if smallest < 2.0 * rules.smallest_diameter or known.sum() < 3:
-        return breakage, np.nan
-    slope = np.polyfit(np.log(sizes[known]), np.log(larger[known]), 1)[0]
-    return breakage, -float(slope)
+    alpha = exponent_of_larger(
+        lambda size: 1.0 - now.number_cdf(size / 2.0), rules.smallest_diameter, smallest
+    )
+    return breakage, alpha

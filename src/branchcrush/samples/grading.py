@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from branchcrush.branches.load_bearing import load_bearing
@@ -11,6 +12,7 @@ from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.representativity import representativity, representativity_report
 from branchcrush.gradings.size_fits import SizeFit
+from branchcrush.packings.geometry import cube, solid_volume
 
 
 def grading_results(
@@ -61,6 +63,31 @@ def grading_results(
         report["size_fits"] = {key: fit.report() for key, fit in fits.items()}
     report["rods"] = _by_rods(grading)
     return grading_table(grading, radii, ultimate), report
+
+
+def mean_packing(packings: Sequence[tuple[ArrayLike, ArrayLike, float]]) -> tuple[int, float]:
+    """Return how many grains packings have, and their solid fraction, the means of all.
+
+    Parameters
+    ----------
+    packings : list of tuple
+        Positions, radii [m] and edge of the cell [m] of each.
+
+    Returns
+    -------
+    grains : int
+    solid_fraction : float
+        [-]
+
+    Examples
+    --------
+    >>> grains, phi = mean_packing([([[0.0, 0.0, 0.0]], [0.5], 1.0)])
+    >>> grains, round(phi, 4)
+    (1, 0.5236)
+    """
+    fractions = [solid_volume(radii) / cube(edge) for _, radii, edge in packings]
+    grains = round(float(np.mean([np.size(radii) for _, radii, _ in packings])))
+    return grains, float(np.mean(fractions))
 
 
 def _by_rods(grading: Grading) -> dict:

@@ -23,8 +23,8 @@ class Note:
     Parameters
     ----------
     check : str
-        Its name: "overlaps", "few grains", "convergence", "load at the first step" or
-        "stopped on the way back".
+        Its name: "overlaps", "few grains", "convergence", "load at the first step",
+        "stopped on the way back", "made by another code" or "reading".
     value, limit : float or None
         What was found, and what would carry no note; None where there is no number.
     finding : str
@@ -211,4 +211,51 @@ def late_stop_notes(stops: Sequence[str]) -> list[Note]:
             advice="nothing, or end the unloading earlier",
         )
         for stop in stops
+    ]
+
+
+def reading_notes(readings: Sequence[Mapping]) -> list[Note]:
+    """Return the notes of packings that another code made: what was read, and what is not known.
+
+    Parameters
+    ----------
+    readings : list of mapping
+        `reading.json` of each.
+
+    Returns
+    -------
+    list of Note
+        None of packings that were compressed here.
+
+    Examples
+    --------
+    >>> reading_notes([{"notes": ["2 virtual contacts were left out"]}])[1].finding
+    'packing 1: 2 virtual contacts were left out'
+    """
+    if not readings:
+        return []
+    unknown = Note(
+        "made by another code",
+        None,
+        None,
+        "the packings were made by another code, whose files tell no work, no kinetic energy and "
+        "no stress of the boundary",
+        "none on n; that the packings are at rest is judged by the balance of their forces alone, "
+        "and no account of energy is closed",
+        "look at the unbalanced force ratio in the certificate, and at how they were loaded",
+    )
+    found: dict[str, list[str]] = {}
+    for number, reading in enumerate(readings, start=1):
+        for words in reading["notes"]:
+            found.setdefault(words, []).append(str(number))
+    return [unknown] + [
+        Note(
+            "reading",
+            None,
+            None,
+            f"packing{'s' if len(packings) > 1 else ''} {', '.join(packings)}: {words}",
+            "as it says; not measured",
+            "write the files anew where it matters",
+        )
+        for words, packings in found.items()
     ]

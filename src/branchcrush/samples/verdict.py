@@ -1,6 +1,6 @@
 """Rule verdict: convergence, the way back, and the verdict of a sample with its reasons."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +22,7 @@ from branchcrush.samples.notes import (
     late_stop_notes,
     loaded_early_notes,
     overlap_notes,
+    reading_notes,
 )
 from branchcrush.samples.seed_branches import state_sums
 from branchcrush.samples.unloading import unloading_summary
@@ -55,6 +56,8 @@ def verdict_results(
     report: dict,
     fit: EnergySplitFit,
     bins: int,
+    limits: Mapping[str, float] = LIMITS,
+    readings: Sequence[Mapping] = (),
 ) -> tuple[pd.DataFrame, dict]:
     """Return what twice the strain steps change, and the certificate of the sample.
 
@@ -73,6 +76,10 @@ def verdict_results(
     fit : EnergySplitFit
     bins : int
         Of branch length.
+    limits : mapping
+        The largest value of each measure that is judged.
+    readings : list of mapping
+        `reading.json` of each packing that another code made.
 
     Returns
     -------
@@ -87,7 +94,9 @@ def verdict_results(
         twice = compared_packings(refined.states, refined.paths, refined.jamming)
         exponents = _exponents(refined, twice.index, bin_edges(*grading.support(), bins))
     convergence = convergence_table(once, twice, fit.exponent_of_each_seed, exponents)
-    certificate = sample_certificate(states, paths, jamming, convergence, report, fit)
+    certificate = sample_certificate(
+        states, paths, jamming, convergence, report, fit, limits=limits, readings=readings
+    )
     return convergence, {**certificate, "unloading": unloading_summary(paths, jamming)}
 
 
@@ -114,6 +123,9 @@ def sample_certificate(
     convergence: pd.DataFrame,
     report: dict,
     fit: EnergySplitFit,
+    *,
+    limits: Mapping[str, float] = LIMITS,
+    readings: Sequence[Mapping] = (),
 ) -> dict:
     """Return the verdict of a sample, with its reasons and the worst of every measure.
 
@@ -133,6 +145,8 @@ def sample_certificate(
     report : dict
         `grading.json`, for its representativity.
     fit : EnergySplitFit
+    limits, readings
+        As for `verdict_results`.
 
     Returns
     -------
@@ -152,6 +166,7 @@ def sample_certificate(
         *grains_notes(report["representativity"]),
         *overlap_notes(last),
         *loaded_early_notes(jamming),
+        *reading_notes(readings),
     ]
     loaded = states[states["carries_load"]]
     return {
@@ -163,7 +178,7 @@ def sample_certificate(
         "states": len(states),
         "states_loaded": len(loaded),
         "states_certified": int(states["certified"].sum()),
-        "limits": LIMITS,
+        "limits": {name: limits.get(name) for name in LIMITS},
         "worst": {name: _largest(loaded[name]) for name in LIMITS},
         "dissipated_share_at_end": _mean(last["dissipated_share"]),
         "median_overlap_ratio_at_end": _mean(last["median_overlap_ratio"]),

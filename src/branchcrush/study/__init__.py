@@ -1,7 +1,7 @@
 """All samples of a study beside each other, what a study will cost, and the pages to open.
 
 `results`
-    `SampleResults`: what the rules have found of one sample, read from its files.
+    `SampleResults`: what the rules have found of one sample, read by `results`.
 `kinds`
     `SampleKind`: boundary, contact law and grading, which tell samples apart in figures.
 `exponents`
@@ -20,6 +20,10 @@
     `render_report` and `render_findings` fill the templates of `workflow/report`.
 `measured_page`, `crushing_page`
     The same for what a laboratory measured, and for grains that break.
+`viewer`, `viewer_states`
+    Grains in 3-D: `viewer_states` takes saved states out of tables, `viewer_data` packs them for
+    the macro `viewer` of `workflow/report/viewer/viewer.html.jinja`, which a page imports once it
+    is rendered with `page_environment(viewer_parts(folder))`.
 
 A new number of all samples is a line of `findings.finding_row`; a new question is a line of
 `verdicts.verdicts` and a sentence of the template. A new warning before a run is one of

@@ -1,7 +1,7 @@
 """The page of grains that break: what each figure says in a sentence, of the run's own numbers."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from jinja2 import Template
@@ -28,6 +28,8 @@ class CrushingPage:
         `crushing_means.csv` and `crushing_beside_forms.csv`.
     grains : sequence of str
         Sentences of `crushed_grains.json`, on who breaks and how energy is split meanwhile.
+    predicted : mapping
+        `crushing_predicted.json`.
     """
 
     name: str
@@ -36,11 +38,15 @@ class CrushingPage:
     means: Table
     beside: Table
     grains: Sequence[str] = ()
+    predicted: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def leads(self) -> dict[str, str]:
         """One plain sentence for each figure, by its name."""
-        return leads(self.summary)
+        return {
+            **leads(self.summary),
+            "crushed_predicted": " ".join(self.predicted.get("sentences", ())),
+        }
 
     @property
     def forms(self) -> list[dict[str, Any]]:
@@ -76,8 +82,8 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
     if not s["breakages"]:
         none = "No grain broke."
         return dict.fromkeys(
-            ("crushed_line", "crushed_gradings", "crushed_energy", "crushed_measures"), none
-        ) | {"crushed_forms": none, "crushed_packing": none}
+            ("crushed_line", "crushed_gradings", "crushed_lengths", "crushed_energy"), none
+        ) | {"crushed_measures": none, "crushed_forms": none, "crushed_packing": none}
     b = s["size_exponent"]
     by_alpha = (
         ""
@@ -102,6 +108,15 @@ def leads(summary: Mapping[str, Any]) -> dict[str, str]:
                 else f"; the number of those larger than d falls as a power of d, with "
                 f"α = {_told(s, 'number_exponent')}; the limiting grading has "
                 f"{s['ultimate_alpha']:g}."
+            )
+        ),
+        "crushed_lengths": (
+            f"At the end a branch is {_told(s, 'final_branch_over_diameter')} times as long as the "
+            "mean grain diameter, where Eq. 4, any two grains alike, says 1 of every grading"
+            + (
+                "."
+                if _missing(s["final_branch_over_diameter_by_rods"])
+                else f", and rods that push say {s['final_branch_over_diameter_by_rods']:.2f}."
             )
         ),
         "crushed_energy": (
@@ -146,13 +161,15 @@ def form_rows(means: Table, beside: Table) -> list[dict[str, Any]]:
     Returns
     -------
     list of dict
-        Keys label, crushing, stress and dissipated; the last two are ratios.
+        Keys label, crushing, stress and dissipated; the last two are ratios. Forms that say nothing
+        of that state are left out.
     """
     if not len(beside):
         return []
     last = beside["state"].max()
     here = means[(means["state"] == last) & ~means["halved_step"]].iloc[0]
-    told = beside[beside["state"] == last].set_index("form")
+    of_state = beside[beside["state"] == last].set_index("form")
+    told = of_state.dropna(how="all", subset=["crushing", "stress_Pa", "dissipated_J_per_m3"])
     return [
         {
             "label": FORM_LABELS[name],
@@ -191,14 +208,16 @@ def _missing(value: float | None) -> bool:
 
 
 def _told(summary: Mapping[str, Any], name: str, scale: float = 1.0, form: str = "%.2f") -> str:
-    """Format a number of the summary with its interval, where it has one."""
+    """Format a number of the summary, with its interval unless that rounds to the number."""
     values = [summary[key] for key in interval_names(name)]
     if _missing(values[0]):
         return "an unknown part of 100" if scale == 100 else "unknown"
     estimate, *ends = (
         None if _missing(value) else _number(scale * value, form) for value in values
     )
-    return f"{estimate}" if None in ends else f"{estimate} ({ends[0]} to {ends[1]})"
+    if None in ends or ends == [estimate, estimate]:
+        return f"{estimate}"
+    return f"{estimate} ({ends[0]} to {ends[1]})"
 
 
 def _number(value: float, form: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
+from jinja2 import DictLoader, Environment, StrictUndefined, Template
 from markupsafe import Markup
 
 from branchcrush import __version__
@@ -217,7 +217,10 @@ def page_template(template: str | Path, glossary: str | Path) -> Template:
     Template
     """
     path = Path(template)
-    environment = page_environment((path.parent, path.parent / "viewer"))
+    files = sorted(
+        file for file in path.parent.iterdir() if file.suffix in (".jinja", ".css", ".js")
+    )
+    environment = page_environment({file.name: _part(file) for file in files})
     terms = read_glossary(Path(glossary).read_text(encoding="utf-8"))
     named = terms_by_name(terms)
 
@@ -231,10 +234,26 @@ def page_template(template: str | Path, glossary: str | Path) -> Template:
     return environment.get_template(path.name)
 
 
-def page_environment(folders: Sequence[Path] = ()) -> Environment:
-    """Return what every page is rendered with: its filters, and nothing undefined passed over."""
+def _part(file: Path) -> str:
+    """Return the source of a part of a page; style and scripts are taken as they are."""
+    text = file.read_text(encoding="utf-8")
+    return text if file.suffix == ".jinja" else f"{{% raw %}}{text}{{% endraw %}}"
+
+
+def page_environment(parts: Mapping[str, str] = MappingProxyType({})) -> Environment:
+    """Return what every page is rendered with: its filters, and nothing undefined passed over.
+
+    Parameters
+    ----------
+    parts : mapping of str to str
+        Templates that the page imports or includes, by name, as `viewer_states.viewer_parts`.
+
+    Returns
+    -------
+    Environment
+    """
     environment = Environment(
-        autoescape=True, undefined=StrictUndefined, loader=FileSystemLoader(folders)
+        autoescape=True, undefined=StrictUndefined, loader=DictLoader(dict(parts))
     )
     environment.filters |= {
         "answer": yes_or_no,

@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.files.tables import Table
+from branchcrush.results.sample import Sample
 from branchcrush.study.kinds import SampleKind
 
 # In `certificate.json`: what is found of such a sample is shown, and counts for nothing.
@@ -51,6 +53,31 @@ class SampleResults:
     certificate: Mapping
     path: Table
     states: Table
+
+    @classmethod
+    def of(cls, sample: Sample, settings: Mapping[str, Any]) -> "SampleResults":
+        """Return these results of a sample, read from its files.
+
+        Parameters
+        ----------
+        sample : branchcrush.results.sample.Sample
+        settings : mapping
+            From `config.schema.Sample.settings`.
+
+        Returns
+        -------
+        SampleResults
+        """
+        return cls(
+            sample.name,
+            SampleKind.of(settings),
+            sample.fit,
+            sample.contact_numbers.summary,
+            sample.sharing.summary,
+            sample.certificate.summary,
+            sample.energy_split_path.data,
+            sample.coordination.data,
+        )
 
     @property
     def is_certified(self) -> bool:

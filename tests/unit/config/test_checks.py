@@ -111,9 +111,17 @@ def test_a_cell_smaller_than_its_largest_grain_is_refused_though_allowed(folder)
 
 
 def test_a_stress_that_would_crush_the_grains_into_each_other_is_refused(folder):
-    (line,) = lines_of(study_of(loading={"mean_stress": [1e3, 1e12]}))
+    (line,) = lines_of(study_of(loading={"mean_stress": [1e5, 1e12]}))
     assert line.startswith("config: samples.mine.loading.mean_stress = 1e+12 Pa: would press")
     assert line.endswith("ask for less, or raise the stiffness of contact")
+
+
+def test_a_stress_that_is_no_load_is_refused_beside_one_that_is_too_much(folder):
+    # Mean radius 0.75 mm: F_0/(pi R^2) = 1e6 * 1e-4/(pi 0.75e-3) = 42.4 kPa.
+    checked_study(study_of(loading={"mean_stress": [4.3e4, 1e5]}))
+    low, high = lines_of(study_of(loading={"mean_stress": [4.2e4, 1e12]}))
+    assert low.startswith("config: samples.mine.loading.mean_stress = 42000 Pa: below 4.24e+04 Pa")
+    assert high.startswith("config: samples.mine.loading.mean_stress = 1e+12 Pa: would press")
 
 
 def test_grains_may_be_pressed_together_by_half_the_median_radius_by_mass(folder):

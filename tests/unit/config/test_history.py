@@ -70,7 +70,7 @@ def test_file(tmp_path):
         ({"strain": [0.1], "unit": "percent"}, "column and unit are for a file"),
         ({"file": "loads.csv"}, "a file must have column"),
         ({"file": "loads.csv", "column": "strain", "unit": "kPa"}, "a unit of it"),
-        ({"file": "no.csv", "column": "strain", "unit": "-"}, r"history\.file: no\.csv"),
+        ({"file": "no.csv", "column": "strain", "unit": "-"}, r"history\.file = 'no\.csv'"),
         ({"loads": [1.0]}, r"thermodynamics\.history\.loads"),
     ],
 )

@@ -285,9 +285,9 @@ def test_a_table_says_what_a_key_is_its_unit_its_default_and_what_is_allowed():
     assert table["`samples.<name>.loading.edge_reduction`"][1:] == ["-", "", "between 0 and 1"]
     forms = {row[0]: row[1:] for row in rows if len(row) == 6}
     assert forms["`normal_stiffness`"][0] == "linear"
-    assert forms["`normal_stiffness`"][2:] == ["N/m", "1e6", "above 0, up to 1e15"]
+    assert forms["`normal_stiffness`"][2:] == ["N/m", "1e6", "1e-9 to 1e15"]
 
 
 def test_a_page_without_a_place_for_a_table_is_refused(schema):
-    with pytest.raises(ConfigError, match="no place for a table"):
+    with pytest.raises(ConfigError, match="no place for"):
         with_tables("# A page", schema)

@@ -5,7 +5,11 @@ from branchcrush.files.dictionary import result_files
 
 MATERIALS = {"quartz": True, "sieved": False}  # whether there is a compression curve
 PACKAGE = data_package(
-    {"Sand": [1, 2], "sand": [7]}, {"Sand-refined": [1]}, MATERIALS, ["Sand", "Sand-refined"]
+    {"Sand": [1, 2], "sand": [7], "others": [1]},
+    {"Sand-refined": [1]},
+    MATERIALS,
+    ["Sand", "Sand-refined"],
+    ["others"],
 )
 BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
 
@@ -16,6 +20,7 @@ def test_every_sample_and_seed_has_its_files_and_names_are_unique():
         "Sand/seed_1/path.csv",
         "Sand/seed_2/path.csv",
         "sand/seed_7/path.csv",
+        "others/seed_1/path.csv",
         "Sand-refined/seed_1/path.csv",
     ]
     names = {resource["name"] for resource in PACKAGE["resources"]}
@@ -28,6 +33,13 @@ def test_seeds_run_again_have_a_certificate_and_no_fit():
     assert "Sand-refined/energy_split.json" not in again
     assert "Sand-refined/certificate.json" not in again
     assert not any("refined" in path for path in BY_PATH if path.startswith("figures/"))
+
+
+def test_packings_of_another_code_have_what_was_read_and_no_packing_for_lammps():
+    assert {"others/seed_1/reading.json", "others/radii.csv"} <= set(BY_PATH)
+    assert "others/seed_1/packing.data" not in BY_PATH
+    assert "sand/seed_7/packing.data" in BY_PATH
+    assert "sand/seed_7/reading.json" not in BY_PATH
 
 
 def test_a_material_has_the_files_of_what_was_measured_and_a_study_without_one_has_none():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from branchcrush.plotting import crushed, crushed_figures
+from branchcrush.plotting import crushed, crushed_figures, crushed_forms
 from tests.unit.samples.crushed_runs import control, run
 from tests.unit.samples.test_crushed import results
 
@@ -39,6 +39,43 @@ def test_the_compression_line_has_every_seed_and_the_slope_of_the_law(result):
     assert np.log(y1 / y0) / np.log(x1 / x0) == pytest.approx(-0.5)
 
 
+def labels(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_without_a_slope_no_law_and_without_predictions_no_line_is_drawn_or_named(result):
+    unknown = result.line.assign(predicted_stress_Pa=np.nan)
+    for missing in (None, np.nan):
+        summary = {**result.summary, "slope": missing}
+        ax = crushed.plot_line(result.states, unknown, [control()], summary)
+        assert not of(ax, "law")
+        assert labels(ax) == ["seed 1", "seed 2", "grains do not break"]
+
+
+def test_void_ratios_are_marked_without_small_marks_between(result):
+    ax = crushed.plot_line(result.states, result.line, [control()], result.summary)
+    ax.figure.canvas.draw()
+    low, high = ax.get_ylim()
+    marks = [float(text.get_text()) for text in ax.get_yticklabels() if text.get_text()]
+    assert sum(low <= mark <= high for mark in marks) >= 3
+    assert not ax.yaxis.get_minorticklabels()
+
+
+def test_forms_and_measures_that_are_unknown_are_not_named(result):
+    means = result.means.assign(compaction_work_J_per_m3=np.nan)
+    beside = result.beside.copy()
+    beside.loc[beside["form"] == "paper", "dissipated_J_per_m3"] = np.nan
+    ax = crushed_forms.plot_dissipation(means, beside)
+    told = labels(ax)
+    assert "simulated" in told and not any("by rods" in label for label in told)
+    assert not of(ax, "paper") and "paper, no branch density" not in told
+    assert of(ax, "einav")
+    nothing = crushed_forms.plot_dissipation(
+        means.assign(dissipated_J_per_m3=np.nan), beside.iloc[:0]
+    )
+    assert nothing.texts[0].get_text() == "no data: no grain broke under load"
+
+
 def test_the_jamming_point_of_gradings_stands_over_the_measured_one(result):
     ax = crushed.plot_jamming(result.states)
     rows = result.states[~result.states["halved_step"] & result.states["carries_load"]]
@@ -60,7 +97,7 @@ def test_shares_are_drawn_with_those_of_half_the_step_dashed(result):
 
 
 def test_measures_and_forms_are_drawn_over_solid_fraction(result):
-    ax = crushed.plot_measures(result.means, result.beside)
+    ax = crushed_forms.plot_measures(result.means, result.beside)
     whole, _ = of(ax, "einav_breakage")
     means = result.means[~result.means["halved_step"]]
     assert whole.get_ydata() == pytest.approx(means["einav_breakage"])
@@ -70,10 +107,10 @@ def test_measures_and_forms_are_drawn_over_solid_fraction(result):
 
 
 def test_stress_and_dissipation_are_in_megapascals(result):
-    ax = crushed.plot_stress(result.means, result.beside, [control()])
+    ax = crushed_forms.plot_stress(result.means, result.beside, [control()])
     means = result.means[~result.means["halved_step"]]
     assert of(ax, "mean_stress_Pa")[0].get_ydata() == pytest.approx(means["mean_stress_Pa"] / 1e6)
-    ax = crushed.plot_dissipation(result.means, result.beside)
+    ax = crushed_forms.plot_dissipation(result.means, result.beside)
     drawn = of(ax, "dissipated_J_per_m3")[0].get_ydata()
     assert drawn == pytest.approx(means["dissipated_J_per_m3"] / 1e6, nan_ok=True)
 

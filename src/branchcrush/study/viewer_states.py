@@ -1,0 +1,203 @@
+"""The states that the page draws, out of the tables of a run."""
+
+from collections.abc import Iterable, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from branchcrush.packings.geometry import sphere_volume
+from branchcrush.packings.grains import grain_energy, grain_stress_volume
+from branchcrush.packings.network import Table, state_networks, state_rows
+from branchcrush.study.viewer import WALLS, ViewerState
+
+_COORDINATES = ("x_m", "y_m", "z_m")
+# The macro, and what it puts into the page, in `workflow/report/viewer`.
+PARTS = ("viewer.html.jinja", "viewer.css", "data.js", "draw.js", "viewer.js")
+
+
+def viewer_parts(folder: str | PathLike[str]) -> dict[str, str]:
+    """Return what a page with a view of grains is rendered with: `pages.page_environment(parts)`.
+
+    Parameters
+    ----------
+    folder : path-like
+        `workflow/report/viewer`, the `PARTS`.
+
+    Returns
+    -------
+    dict of str to str
+        Jinja source by name; style and scripts are taken as they are.
+    """
+    texts = {name: Path(folder, name).read_text(encoding="utf-8") for name in PARTS}
+    return {
+        name: text if name.endswith(".jinja") else f"{{% raw %}}{text}{{% endraw %}}"
+        for name, text in texts.items()
+    }
+
+
+def compression_grains(
+    packing: tuple[NDArray, NDArray, float], compressed: Table, path: Table
+) -> dict[str, NDArray]:
+    """Return a row for each grain in the two states whose positions every packing keeps.
+
+    Parameters
+    ----------
+    packing : tuple
+        Positions, shape (N, 3), radii, shape (N,), and edge of `packing.npz` [m].
+    compressed : DataFrame
+        `compressed.parquet`, the end of the loading.
+    path : DataFrame
+        `path.csv`.
+
+    Returns
+    -------
+    dict of ndarray
+        state, radius_m, x_m, y_m and z_m; as `grains.parquet` of a packing whose grains break.
+
+    Examples
+    --------
+    >>> one = np.ones(1)
+    >>> end = {"x_m": 0 * one, "y_m": one, "z_m": one, "radius_m": one}
+    >>> path = {"state": np.array([0, 1, 2]),
+    ...         "leg": np.array(["loading", "loading", "unloading"])}
+    >>> grains = compression_grains((np.zeros((1, 3)), one, 4.0), end, path)
+    >>> grains["state"].tolist(), grains["y_m"].tolist()
+    ([0, 1], [0.0, 1.0])
+    """
+    positions, radii, _ = packing
+    loading = np.asarray(path["state"])[np.asarray(path["leg"]) == "loading"]
+    columns = dict(zip(_COORDINATES, np.asarray(positions).T, strict=True))
+    columns = {**columns, "radius_m": np.asarray(radii)}
+    sizes = [len(radii), len(compressed["radius_m"])]
+    return {
+        "state": np.repeat([0, int(loading[-1])], sizes),
+        **{
+            name: np.concatenate([column, np.asarray(compressed[name])])
+            for name, column in columns.items()
+        },
+    }
+
+
+def dumped_grains(
+    frames: Iterable[Mapping[str, NDArray]], states: Iterable[int]
+) -> dict[str, NDArray]:
+    """Return a row for each grain in each state that LAMMPS dumped.
+
+    Parameters
+    ----------
+    frames : iterable of mapping of columns
+        x, y, z and radius of the grains by their numbers, a frame a state; of
+        `particles.dump.gz`, by `lammps.files.read_dump`.
+    states : iterable of int
+        Numbers of the saved states; where fewer frames were kept they are those of the last.
+
+    Returns
+    -------
+    dict of ndarray
+        state, radius_m, x_m, y_m and z_m; as `compression_grains`.
+
+    Raises
+    ------
+    ValueError
+        When there is no frame, or there are more than states.
+
+    Examples
+    --------
+    >>> one = np.ones(2)
+    >>> grains = dumped_grains([{"x": one, "y": one, "z": one, "radius": one}], [0, 1, 2])
+    >>> grains["state"].tolist()
+    [2, 2]
+    """
+    kept, numbers = list(frames), [int(state) for state in states]
+    if not 0 < len(kept) <= len(numbers):
+        raise ValueError(f"the dump holds {len(kept)} frames of {len(numbers)} saved states")
+    sizes = [len(frame["radius"]) for frame in kept]
+    return {
+        "state": np.repeat(numbers[-len(kept) :], sizes),
+        **{
+            f"{name}_m": np.concatenate([np.asarray(frame[name]) for frame in kept])
+            for name in ("radius", "x", "y", "z")
+        },
+    }
+
+
+def viewer_states(
+    grains: Table,
+    path: Table,
+    contacts: Table,
+    walls: Table,
+    *,
+    contact_exponent: float,
+    loose: NDArray | None = None,
+) -> list[ViewerState]:
+    """Return the saved states of a packing whose positions are known, as the page draws them.
+
+    Parameters
+    ----------
+    grains : mapping of columns, or DataFrame
+        state, radius_m, x_m, y_m and z_m, state after state, and generation where grains break.
+    path : mapping of columns, or DataFrame
+        `path.csv`: a row for each saved state.
+    contacts, walls : mapping of columns, or DataFrame
+        `contacts.parquet` and `wall_contacts.parquet`; i and j count the rows of the state.
+    contact_exponent : float
+        m of F ~ overlap^m: 1 for linear contacts, 3/2 for Hertz.
+    loose : ndarray, shape (N, 3), optional
+        Positions of state 0, where `grains` does not have them [m].
+
+    Returns
+    -------
+    list of ViewerState
+        In the order of the path.
+    """
+    rows = {int(state): k for k, state in enumerate(np.asarray(path["state"]))}
+    states = list(rows)
+    parts = state_rows(grains["state"], states)
+    held = state_rows(walls["state"], states)
+    drawn = []
+    for state, part, at_wall in zip(states, parts, held, strict=True):
+        places = np.column_stack([np.asarray(grains[name])[part] for name in _COORDINATES])
+        if state == 0 and loose is not None:
+            places = loose
+        if not len(places) or not np.all(np.isfinite(places)):
+            continue
+        radius = np.asarray(grains["radius_m"])[part]
+        network = next(state_networks(radius, contacts, walls, [state]))
+        names = np.asarray(walls["wall"])[at_wall]
+        drawn.append(
+            ViewerState(
+                state=state,
+                label=_label(path, rows[state]),
+                edge=float(np.asarray(path["volume_m3"])[rows[state]]) ** (1 / 3),
+                solid_fraction=float(np.asarray(path["solid_fraction"])[rows[state]]),
+                mean_stress=float(np.asarray(path["mean_stress_Pa"])[rows[state]]),
+                positions=places,
+                radius=radius,
+                energy=grain_energy(network, contact_exponent),
+                pressure=grain_stress_volume(network) / sphere_volume(radius),
+                i=network.i,
+                j=network.j,
+                force=network.force,
+                wall_grain=network.wall_grain,
+                wall=np.array([WALLS.index(name) for name in names], dtype=int),
+                wall_force=network.wall_force,
+                generation=np.asarray(grains["generation"])[part] if _breaks(grains) else None,
+            )
+        )
+    return drawn
+
+
+def _breaks(grains: Any) -> bool:
+    return "generation" in grains
+
+
+def _label(path: Table, row: int) -> str:
+    """Return what a state is, in a word or two."""
+    if row == 0:
+        return "placed at random"
+    if row == 1:
+        return "end of the approach"
+    return str(np.asarray(path["leg"])[row])

@@ -1,0 +1,112 @@
+"""States as files for ParaView, read back by VTK itself."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from branchcrush.command.main import main
+from branchcrush.files.vtk_xml import write_polydata
+
+vtk_xml = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
+numpy_support = pytest.importorskip("vtkmodules.util.numpy_support")
+
+
+def read(path):
+    """Return points, lines, and the data of points and of cells, as VTK reads them."""
+    reader = vtk_xml.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    assert reader.GetErrorCode() == 0
+    data = reader.GetOutput()
+    points = numpy_support.vtk_to_numpy(data.GetPoints().GetData())
+    cells = data.GetLines() if data.GetNumberOfLines() else data.GetVerts()
+    ends = numpy_support.vtk_to_numpy(cells.GetConnectivityArray())
+    return points, ends, *(
+        {of.GetArrayName(k): numpy_support.vtk_to_numpy(of.GetArray(k))
+         for k in range(of.GetNumberOfArrays())}
+        for of in (data.GetPointData(), data.GetCellData())
+    )  # fmt: skip
+
+
+finite = st.floats(-1e300, 1e300)
+
+
+@given(
+    points=st.integers(1, 6).flatmap(lambda n: arrays(float, (n, 3), elements=finite)),
+    data=st.data(),
+)
+@settings(max_examples=40, deadline=None)
+def test_vtk_reads_what_was_written(tmp_path_factory, points, data):
+    count = len(points)
+    lines = data.draw(st.lists(st.tuples(*2 * [st.integers(0, count - 1)]), max_size=5) | st.none())
+    of_points = {
+        'a <b> & "c"': data.draw(arrays(float, count, elements=finite)),
+        "whole": data.draw(arrays(int, count)),
+        "yes": data.draw(arrays(bool, count)),
+        "vector_N": points[::-1],
+    }
+    of_lines = {"chain": np.arange(len(lines))} if lines is not None else {}
+    path = tmp_path_factory.mktemp("vtk") / "some.vtp"
+    write_polydata(path, points, lines, of_points, of_lines)
+    found, ends, point_data, cell_data = read(path)
+    assert found.tolist() == points.tolist()
+    if lines is None or lines:
+        assert ends.tolist() == list(np.ravel(lines if lines else range(count)))
+    assert {name: one.tolist() for name, one in point_data.items()} == {
+        name: one.tolist() for name, one in of_points.items()
+    }
+    assert {name: one.tolist() for name, one in cell_data.items()} == {
+        name: one.tolist() for name, one in of_lines.items()
+    }
+
+
+def test_data_of_another_length_are_refused(tmp_path):
+    with pytest.raises(ValueError, match="force must have 1 entries"):
+        write_polydata(tmp_path / "a.vtp", np.zeros((2, 3)), [(0, 1)], None, {"force": [1, 2]})
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_state_of_a_packing_is_exported_with_its_chain(row_of_three, tmp_path, capsys):
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) == 0
+    folder = tmp_path / "out" / "sand" / "seed_7"
+    printed = [line for line in capsys.readouterr().out.splitlines()]
+    assert printed == [
+        str(folder / f"{name}_0002.vtp") for name in ("grains", "contacts", "force_chains", "cell")
+    ]
+    points, _, grains, _ = read(folder / "grains_0002.vtp")
+    assert points.tolist() == [[-1, 0, 0], [0, 0, 0], [1, 0, 0]]
+    assert grains["diameter_m"].tolist() == [1.0, 1.0, 1.0]
+    assert grains["contacts"].tolist() == [1, 2, 1]
+    points, ends, _, contacts = read(folder / "contacts_0002.vtp")
+    assert points[ends].tolist() == [[-1, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0]]
+    assert contacts["normal_force_N"].tolist() == [3.0, 3.0]
+    # Each grain's stress is above the mean of none: the middle one alone is highly stressed.
+    points, ends, _, _ = read(folder / "force_chains_0002.vtp")
+    assert not len(points) and not len(ends)
+    points, _, _, _ = read(folder / "cell_0002.vtp")
+    assert np.ptp(points, axis=0) == pytest.approx(3 * [3.75])
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--state", "1"], "centres are kept of the loose packing"),
+        (["--state", "9"], "no state 9"),
+        (["--seed", "4"], "no seed 4; there are: 7"),
+        (["--sample", "snad"], "did you mean sand"),
+        (["--crushed"], "was not crushed"),
+    ],
+)
+def test_what_cannot_be_exported_is_told_on_one_line(row_of_three, tmp_path, capsys, options, told):
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "out"), *options]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("error: ") and told in said and said.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_all_states_whose_grains_are_kept_are_exported(row_of_three, tmp_path):
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "out"), "--state", "all"]) == 0
+    numbers = {path.stem[-4:] for path in (tmp_path / "out").rglob("*.vtp")}
+    assert numbers == {"0000", "0002"}

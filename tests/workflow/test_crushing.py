@@ -1,0 +1,174 @@
+"""A tiny sample whose grains break, between walls and with Hertz contacts, from end to end."""
+
+import contextlib
+import hashlib
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+from branchcrush.files.tables import read_json, read_table
+
+SEED = 3
+# Of the whole sample, and of the crushing of its seed; what they hold the dictionary's tests hold.
+OF_SAMPLE = (
+    "crushing_states.csv",
+    "crushing_means.csv",
+    "crushing_gradings.csv",
+    "crushing_lengths.csv",
+    "crushing_line.csv",
+    "crushing_beside_forms.csv",
+    "crushing.json",
+    "crushing_predicted.csv",
+    "crushing_beside_predicted.csv",
+    "crushing_predicted.json",
+    "crushed_predictors.csv",
+    "crushed_roc.csv",
+    "crushed_hazards.csv",
+    "crushed_survivors.csv",
+    "crushed_survival.csv",
+    "crushed_exponents.csv",
+    "crushed_loads.csv",
+    "crushed_overshoots.csv",
+    "crushed_grains.json",
+)
+OF_SEED = (
+    "path.csv",
+    "steps.csv",
+    "contacts.parquet",
+    "wall_contacts.parquet",
+    "grains.parquet",
+    "breakages.parquet",
+    "particles.dump.gz",
+    "pairs.dump.gz",
+    "made.json",
+)
+FIGURES = (
+    "crushed_line",
+    "crushed_gradings",
+    "crushed_lengths",
+    "crushed_energy",
+    "crushed_measures",
+    "crushed_forms",
+    "crushed_predicted",
+    "crushed_packing",
+    "who_breaks",
+    "split_of_crushed",
+)
+TARGET = f"results/breaking/crushing/seed_{SEED}/path.csv"
+
+
+@pytest.fixture(scope="module")
+def crushed(breaking):
+    return breaking.folder / "results/breaking"
+
+
+def test_every_result_file_is_there(crushed):
+    asked = {*OF_SAMPLE, *(f"crushing/seed_{SEED}/{name}" for name in OF_SEED)}
+    assert {name for name in asked if not (crushed / name).stat().st_size} == set()
+    assert not list(crushed.rglob("unfinished"))
+
+
+def test_tables_of_a_seed_tell_the_same_breakages_energy_and_mass(crushed):
+    folder = crushed / f"crushing/seed_{SEED}"
+    path = read_table(folder / "path.csv").set_index("state")
+    grains, broken, contacts, walls = (
+        read_table(folder / f"{kind}.parquet")
+        for kind in ("grains", "breakages", "contacts", "wall_contacts")
+    )
+    assert len(broken) == path["breakages"].iloc[-1] > 0
+    assert (grains.groupby("state").size() == path["grains"]).all()
+    assert path["grains"].iloc[-1] == 24 + 5 * len(broken)
+    mass = (grains["radius_m"] ** 3).groupby(grains["state"]).sum()
+    assert np.allclose(mass, mass[0], rtol=1e-12)
+    last = path.index[-1]
+    here, at_wall = (table[table["state"] == last] for table in (contacts, walls))
+    assert len(at_wall)
+    # Hertz: 2/5 of the force times the overlap, with a wall as with a grain.
+    held = 0.4 * (here["normal_force_N"] * here["overlap_m"]).sum()
+    assert here["energy_J"].sum() == pytest.approx(held, rel=1e-9)
+    stored = path["elastic_energy_J"][last]
+    assert 0.0 < here["energy_J"].sum() < stored
+    taken = path["dissipated_breakage_J"] + path["dissipated_rearrangement_J"]
+    assert path["work_J"][last] == pytest.approx(stored + taken[last], rel=1e-9)
+
+
+def test_results_of_the_sample_are_of_its_seed(crushed):
+    summary = read_json(crushed / "crushing.json")
+    broken = len(read_table(crushed / f"crushing/seed_{SEED}/breakages.parquet"))
+    assert (summary["seeds"], summary["halved_seeds"]) == ([SEED], [])
+    assert summary["contact_law"] == "hertz"
+    assert summary["breakages"] == broken
+    assert read_json(crushed / "crushed_grains.json")["breakages"] == broken
+    assert set(read_table(crushed / "crushing_states.csv")["seed"]) == {SEED}
+
+
+def test_the_page_shows_every_figure_and_no_figure_is_blank(breaking):
+    page = (breaking.folder / "results/crushing.html").read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64,") == len(FIGURES)
+    assert not re.search(r"nan\b|None", re.sub(r"base64,[^\"]+", "", page))
+    for figure in FIGURES:
+        path = breaking.folder / f"results/figures/breaking/{figure}.png"
+        pixels = image.imread(path)[..., :3].reshape(-1, 3)
+        assert 0.01 < (pixels.min(axis=-1) < 0.9).mean() < 0.9, figure
+        assert len(np.unique(pixels, axis=0)) > 20, figure
+
+
+def test_a_crushing_killed_in_the_middle_goes_on_to_the_same_bytes(breaking):
+    folder = breaking.folder / f"results/breaking/crushing/seed_{SEED}"
+    before = digests(folder)
+    (folder / "path.csv").unlink()
+    unfinished = folder / "unfinished"
+    with started(breaking, TARGET):
+        wait_until((unfinished / "account_3.npz").exists)
+    assert (unfinished / "state.npz").exists() and not (folder / "path.csv").exists()
+    run = breaking.snakemake(TARGET, cores=1)
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert not unfinished.exists()
+    assert digests(folder) == before
+    # A row of LAMMPS for each state: none is computed again but for the one it was killed at.
+    log = (breaking.folder / f"logs/breaking/seed_{SEED}/crushing.log").read_text()
+    states = [int(state) for state in re.findall(r"^(\d+),\d+,\d+,", log, re.MULTILINE)]
+    assert states in ([3, 4, 5, 6], [4, 5, 6])
+
+
+@contextlib.contextmanager
+def started(project, *targets):
+    """Begin a run in a process group of its own, which is killed when this block ends."""
+    command = [sys.executable, "-m", "snakemake", "--cores", "1"]
+    run = subprocess.Popen(
+        [*command, "--snakefile", str(project.snakefile), *targets],
+        cwd=project.folder,
+        env={**os.environ, "PYTHONPATH": str(project.source)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        yield run
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+
+
+def wait_until(true):
+    end = time.monotonic() + 200
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.005)
+
+
+def digests(folder):
+    """Return the checksum of each file but for the record, which tells when it was made."""
+    return {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in folder.iterdir()
+        if path.name != "made.json"
+    }
