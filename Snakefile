@@ -14,7 +14,6 @@ rule all:
         "results/comparison.csv",
         "results/datapackage.json",
         "results/report.html",
-        "results/findings.html",
         ["results/measured.html"] if SETTINGS.measured else [],
         ["results/crushing.html"] if any(s.breakage for s in SETTINGS.samples.values()) else [],
 

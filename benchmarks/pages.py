@@ -13,7 +13,7 @@ from benchmarks.measure import run_timed
 
 ROOT = Path(__file__).resolve().parents[1]
 GOAL = 40.0
-PAGES = ("packing_figures", "fit_figures", "comparison", "report", "findings", "findings_page")
+PAGES = ("packing_figures", "fit_figures", "comparison", "report", "findings", "findings_figures")
 _SAMPLE = """\
   sample-{number}:
     grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-5, max: 1.0e-3}}

@@ -93,7 +93,7 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
         assert f"No curves: {text}." in page
     assert "1 of 1 packings carry no load at the end of their loading" in page
     # Grading, packing and path of both; certificate, branches, network of the grains of one size.
-    assert page.count("data:image/png;base64,") == 10
+    assert page.count("data:image/png;base64,") == 10 + 6
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
     for name in ("alike", "loose"):
         figures = list((no_data / "figures" / name).glob("*.png"))
@@ -110,7 +110,7 @@ def test_findings_keep_what_grains_of_one_size_do_tell(no_data):
     known = ["boundary", "contact_law", "verdict", "verdict_reasons", "reason"]
     assert rows.loc["loose"].drop(known).isna().all()
     assert rows.loc["loose", "verdict"] == "not certified"
-    page = (no_data / "findings.html").read_text(encoding="utf-8")
+    page = (no_data / "report.html").read_text(encoding="utf-8")
     assert f"Not all is known of loose: {NO_LOAD}." in page
     assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-PAGE = {"findings_page"}
+PAGE = {"findings_figures", "report"}
 FIGURES = {"packing_figures", "fit_figures", "report"} | PAGE
 MODEL = {"thermodynamics", "comparison", "fit_figures", "report"}
 NETWORKS = {"branch_lengths", "sharing", "packing_figures", "findings"} | PAGE

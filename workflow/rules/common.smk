@@ -134,6 +134,21 @@ def code(script, *others):
     return source_digest(workflow.source_path(f"../scripts/{script}.py"), others)
 
 
+GLOSSARY = str(ROOT / "docs/glossary.md")
+
+
+def page_files(*parts, page):
+    """Return the files that a page is rendered from: its template, its parts, and what all share."""
+    shared = ["base.html.jinja", "parts.html.jinja", "page.css", "page.js"]
+    own = [f"{name}.html.jinja" for name in (page, *parts)]
+    return [*(str(ROOT / "workflow/report" / name) for name in own + shared), GLOSSARY]
+
+
+def as_svg(names, folder="{sample}"):
+    """Return the same figures as SVG, which are drawn beside the PNG, as outputs by name."""
+    return {f"{name}_svg": f"results/figures/{folder}/{name}.svg" for name in names}
+
+
 def figure(name):
     """Return a figure of a sample, as an output that `snakemake --report` holds."""
     return report(

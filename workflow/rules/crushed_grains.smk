@@ -45,6 +45,7 @@ rule crushed_grains_figures:
         loads="results/{sample}/crushed_loads.csv",
     output:
         **{name: figure(name) for name in GRAINS_FIGURES},
+        **as_svg(GRAINS_FIGURES),
         record="results/{sample}/made/crushed_grains_figures.json",
     log:
         "logs/{sample}/crushed_grains_figures.log",

@@ -72,6 +72,7 @@ rule crushing_figures:
         path=lambda wildcards: of_crushed_seeds("path.csv")(wildcards)[:1],
     output:
         **{name: figure(name) for name in CRUSHING_FIGURES},
+        **as_svg(CRUSHING_FIGURES),
         record="results/{sample}/made/crushing_figures.json",
     log:
         "logs/{sample}/crushing_figures.log",
@@ -104,8 +105,9 @@ rule crushing_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("crushing_page", CRUSHING_PAGE),
+        code=code("crushing_page", *page_files(page="crushing")),
         template=CRUSHING_PAGE,
+        glossary=GLOSSARY,
         samples=BREAKING,
         figures=CRUSHING_FIGURES + GRAINS_FIGURES,
     script:

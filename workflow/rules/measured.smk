@@ -6,6 +6,7 @@ rule measured:
     input:
         data=gradings_of("before", "after"),
     output:
+        **as_svg(["gradings"], "measured/{material}"),
         curves="results/measured/{material}/gradings.csv",
         breakage="results/measured/{material}/breakage.json",
         figure=measured_figure("gradings"),
@@ -27,6 +28,7 @@ rule measured_resistance:
         data=gradings_of("before"),
         curve=lambda wildcards: local(material_of(wildcards)["compression"]["file"]),
     output:
+        **as_svg(["compression"], "measured/{material}"),
         curve="results/measured/{material}/compression.csv",
         line="results/measured/{material}/compression_line.csv",
         summary="results/measured/{material}/compression.json",
@@ -58,8 +60,9 @@ rule measured_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("measured_page", MEASURED_PAGE),
+        code=code("measured_page", *page_files(page="measured")),
         template=MEASURED_PAGE,
+        glossary=GLOSSARY,
         materials=list(MEASURED),
         compressed=COMPRESSED,
     script:

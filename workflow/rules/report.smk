@@ -3,7 +3,15 @@
 # As measured, and what is fitted: only the second show the crushing model. Halves of about equal
 # work, so that both cores draw those of one sample, and no more jobs, since each loads the plotting
 # library once more.
-PACKING_FIGURES = ["fig3_grading", "fig4_packing", "certificate", "who_touches_whom", "sharing"]
+PACKING_FIGURES = [
+    "fig3_grading",
+    "fig4_packing",
+    "certificate",
+    "who_touches_whom",
+    "sharing",
+    "force_chains",
+    "contact_rose",
+]
 FIT_FIGURES = [
     "fig5_energy_split",
     "fig6_cubic",
@@ -11,6 +19,7 @@ FIT_FIGURES = [
     "exponent_path",
     "predictors",
     "loading_path",
+    "compression_curve",
     "crushing_model",
     "crushing_energy",
     "crushing_yield",
@@ -29,8 +38,8 @@ NETWORK_TABLES = [
     "stress_sharing",
 ]
 FIGURES = PACKING_FIGURES + FIT_FIGURES
-REPORT, FINDINGS_PAGE = (
-    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "findings")
+REPORT, TOGETHER = (
+    str(ROOT / f"workflow/report/{page}.html.jinja") for page in ("report", "together")
 )
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
@@ -49,8 +58,10 @@ rule packing_figures:
         path=of_first_seed("path.csv"),
         packing=of_first_seed("packing.npz"),
         compressed=of_first_seed("compressed.parquet"),
+        contacts=of_first_seed("contacts.parquet"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
+        **as_svg(PACKING_FIGURES),
         record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
@@ -80,6 +91,7 @@ rule fit_figures:
         data=data_files,
     output:
         **{name: figure(name) for name in FIT_FIGURES},
+        **as_svg(FIT_FIGURES),
         record="results/{sample}/made/fit_figures.json",
     log:
         "logs/{sample}/fit_figures.log",
@@ -129,6 +141,8 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
+        **{f"findings_{name}": f"results/figures/findings/{name}.png" for name in FINDINGS},
+        rows="results/findings.csv",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
         forms=expand("results/{sample}/crushing_forms.csv", sample=SAMPLES),
@@ -143,10 +157,12 @@ rule report:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report", REPORT),
-        template=REPORT,
+        code=code("report", *page_files("sample", "together", page="report")),
+        templates=[REPORT, TOGETHER],
+        glossary=GLOSSARY,
         samples=SAMPLES,
         figures=FIGURES,
+        findings=FINDINGS,
         measured=bool(MEASURED),
     script:
         "../scripts/report.py"
@@ -179,7 +195,7 @@ rule findings:
         "../scripts/findings.py"
 
 
-rule findings_page:
+rule findings_figures:
     input:
         rows="results/findings.csv",
         states="results/coordination.csv",
@@ -190,17 +206,15 @@ rule findings_page:
         forces=expand("results/{sample}/force_distribution.csv", sample=SAMPLES),
     output:
         **{name: study_figure(name) for name in FINDINGS},
-        page="results/findings.html",
-        record="results/made/findings_page.json",
+        **as_svg(FINDINGS, "findings"),
+        record="results/made/findings_figures.json",
     log:
-        "logs/findings_page.log",
+        "logs/findings_figures.log",
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("findings_page", FINDINGS_PAGE),
-        template=FINDINGS_PAGE,
+        code=code("findings_figures"),
         samples=SAMPLES,
-        figures=FINDINGS,
         dpi=SETTINGS.figures.dpi,
     script:
-        "../scripts/findings_page.py"
+        "../scripts/findings_figures.py"

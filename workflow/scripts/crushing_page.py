@@ -1,10 +1,9 @@
 """Write the page of the samples whose grains break."""
 
-from pathlib import Path
-
 from branchcrush.files.tables import read_json, read_table, write_text
 from branchcrush.records import recorded_job
 from branchcrush.study.crushing_page import CrushingPage, render_crushing
+from branchcrush.study.pages import page_template
 
 with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
@@ -20,5 +19,5 @@ with recorded_job(snakemake):
         )
         for k, name in enumerate(params.samples)
     ]
-    template = Path(params.template).read_text(encoding="utf-8")
+    template = page_template(params.template, params.glossary)
     write_text(snakemake.output.page, render_crushing(template, pages))

@@ -22,6 +22,7 @@ with recorded_job(snakemake):
     figures.draw_branch_lengths(output.fig7_branch_lengths, dpi, lengths, statistics, largest)
     figures.draw_exponent_path(output.exponent_path, dpi, read_table(files.split_path), fit)
     figures.draw_predictors(output.predictors, dpi, fit, read_table(files.ratio))
+    figures.draw_compression_curve(output.compression_curve, dpi, paths)
     figures.draw_loading_path(output.loading_path, dpi, paths, model)
     crushing.draw_crushing_model(output.crushing_model, dpi, forms, curves, model)
     crushing.draw_crushing_energy(output.crushing_energy, dpi, forms, model)

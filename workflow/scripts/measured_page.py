@@ -1,10 +1,9 @@
 """Write the page of what a laboratory measured."""
 
-from pathlib import Path
-
 from branchcrush.files.tables import read_json, write_text
 from branchcrush.records import recorded_job
 from branchcrush.study.measured_page import MeasuredPage, render_measured
+from branchcrush.study.pages import page_template
 
 with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params
@@ -16,5 +15,5 @@ with recorded_job(snakemake):
         fit, figure = fits.get(name, (None, None))
         compression = fit and read_json(fit)
         pages.append(MeasuredPage(name, read_json(breakage), drawn, compression, figure))
-    template = Path(params.template).read_text(encoding="utf-8")
+    template = page_template(params.template, params.glossary)
     write_text(snakemake.output.page, render_measured(template, pages))

@@ -22,3 +22,6 @@ with recorded_job(snakemake):
     figures.draw_certificate(output.certificate, dpi, states, jamming, read_json(files.certificate))
     networks.draw_who_touches_whom(output.who_touches_whom, dpi, numbers, tables, largest)
     networks.draw_sharing(output.sharing, dpi, shared, tables, largest)
+    contacts = read_table(files.contacts[0])
+    networks.draw_chains(output.force_chains, dpi, compressed, contacts, path)
+    networks.draw_rose(output.contact_rose, dpi, contacts, path)

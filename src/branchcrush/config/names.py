@@ -21,7 +21,6 @@ _TAKEN = (
     "datapackage.json",
     "exponents.csv",
     "findings.csv",
-    "findings.html",
     "crushing.html",
     "measured.html",
     "report.html",

@@ -13,6 +13,7 @@ _KINDS = {
     ".json": ("json", "application/json", False),
     ".html": ("html", "text/html", False),
     ".png": ("png", "image/png", False),
+    ".svg": ("svg", "image/svg+xml", False),
     ".npz": ("npz", "application/x-npz", False),
     ".data": ("data", "text/plain", False),
 }

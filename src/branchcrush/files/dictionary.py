@@ -12,7 +12,7 @@ import hashlib
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -190,7 +190,14 @@ def result_files() -> tuple[ResultFile, ...]:
     -------
     tuple of ResultFile
     """
-    return tuple(file for stage in stages() for file in stage.files)
+    return tuple(kind for stage in stages() for file in stage.files for kind in _kinds(file))
+
+
+def _kinds(file):
+    """Yield a file, and of a picture the same as SVG, which is written down once for both."""
+    yield file
+    if file.path.endswith(".png"):
+        yield replace(file, path=file.path.removesuffix("png") + "svg")
 
 
 def dictionary_digest() -> str:

@@ -210,3 +210,40 @@ def _of_seeds(tensors: NDArray, numbers: NDArray, confidence: float) -> dict[str
         "deviator_of_mean": float(deviator(np.mean(tensors, axis=0))),
         "expected_deviator_of_mean": float(np.sqrt(np.sum(1.0 / numbers)) / len(numbers)),
     }
+
+
+def orientation_band(branches: int, sectors: int, confidence: float = 0.95) -> tuple[float, float]:
+    r"""Return the range by chance of a sector of a rose of orientations, over its mean.
+
+    .. math:: \left[ Q(\tfrac{1-c}{2}),\; Q(\tfrac{1+c}{2}) \right] \frac{k}{M}
+
+    with Q the quantile of the binomial distribution of M draws, each in one of k equal sectors.
+
+    Parameters
+    ----------
+    branches : int
+        M, independent and isotropic.
+    sectors : int
+        k, that the branches fall in alike.
+    confidence : float
+        c, share of the sectors that lie in the range [-].
+
+    Returns
+    -------
+    tuple of float
+        Lower and upper end [-].
+
+    Examples
+    --------
+    >>> [round(end, 3) for end in orientation_band(1200, 12)]
+    [0.82, 1.19]
+
+    References
+    ----------
+    Rothenburg and Bathurst (1989), Geotechnique 39, 601, for roses of contact orientation.
+    """
+    from scipy.stats import binom  # slow to import, and few jobs need it
+
+    ends = binom.ppf([0.5 - confidence / 2.0, 0.5 + confidence / 2.0], branches, 1.0 / sectors)
+    low, high = ends * sectors / branches
+    return float(low), float(high)

@@ -136,6 +136,27 @@ def draw_predictors(path: Path, dpi: int, fit: EnergySplitFit, ratio: Table) -> 
     return panels[0].figure
 
 
+def draw_compression_curve(path: Path, dpi: int, paths: Table) -> Figure:
+    """Draw void ratio against the logarithm of the stress, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    paths : DataFrame
+        `path.csv` of all seeds, from `samples.ensemble.stacked`.
+
+    Returns
+    -------
+    Figure
+    """
+    why = None if paths["carries_load"].any() else "no packing carries load in any state"
+    with figure(path, dpi) as ax:
+        drawn(loading.plot_compression_curve, why, paths, ax=ax)
+    return ax.figure
+
+
 def draw_loading_path(path: Path, dpi: int, states: Table, model: Mapping) -> Figure:
     """Draw stress, energies, coordination and elastic law along the loading, and return it.
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator
 
 from branchcrush.crushing.elastic_fits import interpolated_elasticity
 from branchcrush.files.tables import Table
@@ -31,6 +32,40 @@ def plot_mean_stress(path: Table, ax: Axes | None = None) -> Axes:
         ax.plot(back["solid_fraction"], stress, "s", color=OTHER, ms=3, label="unloading, mean")
     ax.set(xlabel=r"solid fraction $\phi$ [-]", ylabel="mean stress [MPa]")
     ax.legend(loc="upper left")
+    return ax
+
+
+def plot_compression_curve(path: Table, ax: Axes | None = None) -> Axes:
+    """Draw the void ratio of every seed against the logarithm of the mean stress, and their mean.
+
+    Parameters
+    ----------
+    path : DataFrame
+        From `samples.ensemble.stacked`; states that carry no load have no place on the axis.
+    ax : Axes, optional
+
+    Returns
+    -------
+    Axes
+    """
+    ax = axes(ax)
+    loaded = path[path["carries_load"]]
+    for leg, color in (("loading", MEASURED), ("unloading", OTHER)):
+        part = loaded[loaded["leg"] == leg]
+        for number, (_, seed) in enumerate(part.groupby("seed_number")):
+            label = f"{leg}, each seed" if number == 0 else None
+            stress = seed["mean_stress_Pa"] / 1e6
+            ax.plot(stress, seed["void_ratio"], color=color, alpha=0.3, lw=0.7, label=label)
+        if len(part):
+            mean = part.groupby("state")[["mean_stress_Pa", "void_ratio"]].mean()
+            line = {"color": MODEL if leg == "loading" else OTHER, "label": f"{leg}, mean"}
+            ax.plot(mean["mean_stress_Pa"] / 1e6, mean["void_ratio"], "o-", **line)
+    ax.set(xscale="log", xlabel="mean stress p [MPa]", ylabel="void ratio e [-]")
+    # Plain numbers, a few to a decade: most curves span one or two.
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter("")
+    ax.legend()
     return ax
 
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
-from branchcrush.plotting import branches, forces, shielding
-from branchcrush.plotting.style import drawn, figure, grid
+from branchcrush.plotting import branches, chains, forces, shielding
+from branchcrush.plotting.style import SIZE, drawn, figure, grid, reason
+from branchcrush.samples.ensemble import end_of_loading
 
 Path = str | os.PathLike
 
@@ -87,3 +88,66 @@ def draw_sharing(
         ):
             drawn(plot, result, tables[name], *data, ax=ax)
     return panels[0, 0].figure
+
+
+def draw_chains(
+    path: Path, dpi: int, compressed: Table, contacts: Table, loading_path: Table
+) -> Figure:
+    """Draw force chains and the energy of branches in a slab of a packing, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    compressed : DataFrame
+        `compressed.parquet` of a packing.
+    contacts : DataFrame
+        Its `contacts.parquet`.
+    loading_path : DataFrame
+        Its `path.csv`.
+
+    Returns
+    -------
+    Figure
+        The slab is as thick as the largest grain, across the middle of the cell.
+    """
+    end = end_of_loading(loading_path)
+    last = contacts[contacts["state"] == end["state"]]
+    edge, thickness = end["volume_m3"] ** (1 / 3), 2.0 * compressed["radius_m"].max()
+    plots = (chains.plot_slab, chains.plot_branch_energy)
+    with figure(path, dpi, *grid(1, 2)) as panels:
+        for ax, plot in zip(panels, plots, strict=True):
+            if last["normal_force_N"].max() > 0:
+                plot(compressed, last, edge, thickness, ax=ax)
+            else:
+                reason(ax, "no grain touches another at the end of the loading")
+    return panels[0].figure
+
+
+def draw_rose(path: Path, dpi: int, contacts: Table, loading_path: Table) -> Figure:
+    """Draw which way the branches of a packing point, seen along each axis, and return the figure.
+
+    Parameters
+    ----------
+    path : path-like
+        A PNG file.
+    dpi : int
+    contacts : DataFrame
+        `contacts.parquet` of a packing.
+    loading_path : DataFrame
+        Its `path.csv`.
+
+    Returns
+    -------
+    Figure
+        Of the end of the loading.
+    """
+    last = contacts[contacts["state"] == end_of_loading(loading_path)["state"]]
+    with figure(path, dpi, (2 * SIZE[0], SIZE[1]), (1, 3), projection="polar") as panels:
+        for ax, normal in zip(panels, "xyz", strict=True):
+            if len(last):
+                chains.plot_rose(last, normal, ax=ax)
+            else:
+                reason(ax, "no grain touches another at the end of the loading")
+    return panels[0].figure

@@ -10,6 +10,7 @@ from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
 
@@ -30,8 +31,8 @@ FORMS = {
     "einav": OTHER,
     "tengattini": "#8dbf8b",
 }
-# One column of a journal page [inch].
-SIZE = (3.5, 2.7)
+# One column of a journal page, 85 mm wide; a figure of two columns is 170 mm [inch].
+SIZE = (85.0 / 25.4, 66.0 / 25.4)
 # Solid fractions are drawn on an axis that is at least so wide [-].
 LEAST_SPREAD = 0.05
 
@@ -50,6 +51,17 @@ STYLE = {
     "mathtext.fontset": "dejavusans",
     # Numbers as they are: no axis whose marks are to be added to one number at its end.
     "axes.formatter.useoffset": False,
+    # Letters as outlines in SVG and as TrueType in PDF: they look alike wherever they are opened.
+    "svg.fonttype": "path",
+    "pdf.fonttype": 42,
+    # The same data give the same bytes.
+    "svg.hashsalt": "branchcrush",
+}
+# Of what no file of a figure tells: date and version of the plotting library.
+_UNTOLD: dict[str, dict[str, None]] = {
+    "png": {"Software": None},
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
 }
 
 
@@ -70,8 +82,9 @@ def grid(rows: int, columns: int) -> tuple[tuple[float, float], tuple[int, int]]
 
     Examples
     --------
-    >>> grid(1, 2)
-    ((7.0, 2.7), (1, 2))
+    >>> size, panels = grid(1, 2)
+    >>> [round(25.4 * side, 9) for side in size], panels
+    ([170.0, 66.0], (1, 2))
     """
     return (columns * SIZE[0], rows * SIZE[1]), (rows, columns)
 
@@ -83,21 +96,25 @@ def figure(
     size: tuple[float, float] = SIZE,
     panels: tuple[int, int] = (1, 1),
     squeeze: bool = True,
+    projection: str | None = None,
 ) -> Iterator[Any]:
     """Draw a figure and save it: yields its Axes, one or an array of them.
 
     Parameters
     ----------
     path : path-like
-        A PNG file; its folder is made.
+        A PNG file, beside which the same is written as SVG; or a file of another ending, as
+        .pdf, which is written alone. Its folder is made.
     dpi : int
-        Dots per inch.
+        Dots per inch, of what is no line or letter too.
     size : tuple of float
         [inch]
     panels : tuple of int
         Rows and columns.
     squeeze : bool
         Whether one panel comes alone and one row or column as a list, or all as an array.
+    projection : str, optional
+        As polar.
 
     Examples
     --------
@@ -110,18 +127,63 @@ def figure(
     """
     with plt.rc_context(STYLE):
         drawing, ax = plt.subplots(
-            *panels, figsize=size, dpi=dpi, layout="constrained", squeeze=squeeze
+            *panels,
+            figsize=size,
+            dpi=dpi,
+            layout="constrained",
+            squeeze=squeeze,
+            subplot_kw={"projection": projection},
         )
         yield ax
+        letter(drawing)
         # Laid out here: to lay out, savefig would draw the whole figure once more.
         drawing.get_layout_engine().execute(drawing)
         drawing.set_layout_engine("none")
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        # No date and no version of the plotting library: the same data give the same bytes.
-        # A file a seventh larger than the smallest takes half the time to write.
-        fast = {"compress_level": 2}
-        drawing.savefig(path, dpi=dpi, metadata={"Software": None}, pil_kwargs=fast)
+        path = Path(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        for file in (path, path.with_suffix(".svg")) if path.suffix == ".png" else (path,):
+            kind = file.suffix.removeprefix(".")
+            # A PNG a seventh larger than the smallest takes half the time to write.
+            fast = {"pil_kwargs": {"compress_level": 2}} if kind == "png" else {}
+            drawing.savefig(file, dpi=dpi, metadata=_UNTOLD.get(kind), **fast)
         plt.close(drawing)
+
+
+def letter(drawing: Figure) -> list[str]:
+    """Write (a), (b), (c) at the panels of a figure that has more than one, and return them.
+
+    Parameters
+    ----------
+    drawing : Figure
+        Scales of colour, second axes and panels without anything get none.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> drawing, (left, right) = plt.subplots(1, 2)
+    >>> _ = left.twinx()
+    >>> letter(drawing)
+    ['(a)', '(b)']
+    """
+    places: dict[Any, Axes] = {}
+    for ax in drawing.axes:
+        place = ax.get_subplotspec()
+        if place is None or ax.get_label() == "<colorbar>":
+            continue
+        if ax.axison or ax.texts or ax.images or ax.lines or ax.collections:
+            places.setdefault((place.num1, place.num2), ax)
+    panels = list(places.values())
+    letters = [f"({chr(ord('a') + number)})" for number in range(len(panels))]
+    if len(panels) < 2:
+        return []
+    for text, ax in zip(letters, panels, strict=True):
+        beside = {"xytext": (-24, 9), "textcoords": "offset points", "ha": "right"}
+        written = ax.annotate(text, (0, 1), xycoords="axes fraction", va="bottom", **beside)
+        written.set(weight="bold", gid="letter")
+    return letters
 
 
 def drawn(plot: Callable[..., Axes], why: str | None, *data: Any, ax: Axes) -> Axes:

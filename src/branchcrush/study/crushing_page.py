@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from jinja2 import Template
+
 from branchcrush import __version__
 from branchcrush.branches.crushing_forms import FORM_LABELS
 from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import interval_names
-from branchcrush.study.pages import page_environment
 
 
 @dataclass(frozen=True)
@@ -181,13 +182,13 @@ def form_rows(means: Table, beside: Table) -> list[dict[str, Any]]:
     ]
 
 
-def render_crushing(template: str, samples: Sequence[CrushingPage]) -> str:
+def render_crushing(template: Template, samples: Sequence[CrushingPage]) -> str:
     """Return the page of grains that break as one HTML page with its figures inside.
 
     Parameters
     ----------
-    template : str
-        Jinja source.
+    template : Template
+        From `study.pages.page_template`.
     samples : list of CrushingPage
 
     Returns
@@ -196,11 +197,10 @@ def render_crushing(template: str, samples: Sequence[CrushingPage]) -> str:
 
     Examples
     --------
-    >>> render_crushing("{{ samples | length }} samples", [])
+    >>> render_crushing(Template("{{ samples | length }} samples"), [])
     '0 samples'
     """
-    page = page_environment().from_string(template)
-    return page.render(samples=samples, version=__version__)
+    return template.render(samples=samples, version=__version__)
 
 
 def _missing(value: float | None) -> bool:

@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from jinja2 import Template
+
 from branchcrush import __version__
-from branchcrush.study.pages import page_environment
 
 
 @dataclass(frozen=True)
@@ -32,13 +33,13 @@ class MeasuredPage:
     curve: Any = None
 
 
-def render_measured(template: str, materials: Sequence[MeasuredPage]) -> str:
+def render_measured(template: Template, materials: Sequence[MeasuredPage]) -> str:
     """Return the page of measured materials as one HTML page with its figures inside.
 
     Parameters
     ----------
-    template : str
-        Jinja source.
+    template : Template
+        From `study.pages.page_template`.
     materials : list of MeasuredPage
 
     Returns
@@ -47,8 +48,7 @@ def render_measured(template: str, materials: Sequence[MeasuredPage]) -> str:
 
     Examples
     --------
-    >>> render_measured("{{ materials | length }} materials", [])
+    >>> render_measured(Template("{{ materials | length }} materials"), [])
     '0 materials'
     """
-    page = page_environment().from_string(template)
-    return page.render(materials=materials, version=__version__)
+    return template.render(materials=materials, version=__version__)

@@ -3,17 +3,19 @@
 import base64
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from jinja2 import DictLoader, Environment, StrictUndefined
+from jinja2 import DictLoader, Environment, StrictUndefined, Template
+from markupsafe import Markup
 
 from branchcrush import __version__
 from branchcrush.energy.estimators import ESTIMATORS
 from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.local_exponents import trend
+from branchcrush.files.dictionary import result_files
 from branchcrush.files.tables import Table
 from branchcrush.statistics.intervals import LIMITS, Interval, interval_text
 from branchcrush.study.crushing_words import (
@@ -23,22 +25,25 @@ from branchcrush.study.crushing_words import (
     share_text,
     yes_or_no,
 )
+from branchcrush.study.front import front_sentences, study_sentences
+from branchcrush.study.glossary import read_glossary, terms_by_name, with_subscripts
 from branchcrush.study.verdicts import GOOD_DISTANCE, verdicts
 
-# What is compared with twice the strain steps.
-QUANTITY_WORDS: Mapping[str, str] = MappingProxyType(
+# What is compared with twice the strain steps: words, and the unit of the numbers.
+QUANTITY_WORDS: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        "exponent": "n",
-        "solid_fraction": "solid fraction φ",
-        "mean_stress_Pa": "mean stress [Pa]",
-        "elastic_energy_J": "elastic energy [J]",
-        "work_J": "work [J]",
-        "coordination_number": "coordination number κ",
-        "mechanical_coordination_number": "the same without rattlers, κ*",
-        "jamming_solid_fraction": "jamming solid fraction φ_J",
-        "force_evaluations": "force evaluations of a packing",
+        "exponent": ("n", ""),
+        "solid_fraction": ("solid fraction φ", ""),
+        "mean_stress_Pa": ("mean stress", "Pa"),
+        "elastic_energy_J": ("elastic energy", "J"),
+        "work_J": ("work", "J"),
+        "coordination_number": ("coordination number κ", ""),
+        "mechanical_coordination_number": ("the same without rattlers, κ*", ""),
+        "jamming_solid_fraction": ("jamming solid fraction φ_J", ""),
+        "force_evaluations": ("force evaluations of a packing", ""),
     }
 )
+_PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 # What `thermodynamics.json` has a sentence for only where there is something to say.
 _NOT_SAID = dict.fromkeys(("reason", "form_reason", "paper_degenerate", "untested"))
 
@@ -60,6 +65,8 @@ class SamplePage:
         By name of the figure.
     forms : DataFrame
         `crushing_forms.csv`.
+    row : mapping, optional
+        Of `findings.csv`, None where there is no number.
     """
 
     name: str
@@ -71,6 +78,12 @@ class SamplePage:
     grading: Mapping[str, Any]
     figures: Mapping[str, Any]
     forms: Table
+    row: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def sentences(self) -> list[str]:
+        """What came out, in plain words."""
+        return front_sentences(self.fit, self.certificate, self.model, self.row)
 
     @property
     def one_state(self) -> bool:
@@ -93,14 +106,21 @@ class SamplePage:
         return extrapolated_from(self.forms, self.model)
 
 
-def render_report(template: str, samples: Sequence[SamplePage], measured: bool = False) -> str:
+def render_report(
+    template: Template,
+    samples: Sequence[SamplePage],
+    together: str = "",
+    measured: bool = False,
+) -> str:
     """Return the report as one HTML page with its figures inside.
 
     Parameters
     ----------
-    template : str
-        Jinja source.
+    template : Template
+        From `page_template`.
     samples : list of SamplePage
+    together : str
+        From `render_findings`; nothing where one sample has no other beside it.
     measured : bool
         Whether there is a page of measured materials to link to.
 
@@ -110,7 +130,8 @@ def render_report(template: str, samples: Sequence[SamplePage], measured: bool =
 
     Examples
     --------
-    >>> render_report("{{ samples | length }} samples", [])
+    >>> template = page_environment().from_string("{{ samples | length }} samples")
+    >>> render_report(template, [])
     '0 samples'
     """
     # A result without data says why; the others have no reason to give.
@@ -119,20 +140,41 @@ def render_report(template: str, samples: Sequence[SamplePage], measured: bool =
             page,
             model={**_NOT_SAID, **page.model},
             statistics={"reason": None, **page.statistics},
+            row=defaultdict(lambda: None, page.row),
         )
         for page in samples
     ]
-    page = page_environment().from_string(template)
-    return page.render(samples=pages, estimators=ESTIMATORS, measured=measured, version=__version__)
+    return template.render(
+        samples=pages,
+        study=study_sentences([(page.name, page.fit, page.certificate) for page in pages]),
+        together=Markup(together),  # by a template that escapes
+        estimators=ESTIMATORS,
+        measured=measured,
+        version=__version__,
+    )
 
 
-def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> str:
-    """Return the page on which all samples are judged together, its figures inside.
+def finding_records(rows: Table) -> list[dict[str, Any]]:
+    """Return the rows of `findings.csv`, with None where there is no number or no column.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> finding_records(pd.DataFrame({"sample": ["sand"], "n": [float("nan")]}))[0]["n"] is None
+    True
+    """
+    known = rows.astype(object).where(rows.notna(), None).to_dict("records")
+    # A study of which no sample has a number has no column for it.
+    return [defaultdict(lambda: None, row) for row in known]
+
+
+def render_findings(template: Template, rows: Table, figures: Mapping[str, Any]) -> str:
+    """Return the section in which all samples are judged together, its figures inside.
 
     Parameters
     ----------
-    template : str
-        Jinja source.
+    template : Template
+        From `page_template`.
     rows : DataFrame
         `findings.csv`.
     figures : mapping of str to path-like
@@ -146,25 +188,56 @@ def render_findings(template: str, rows: Table, figures: Mapping[str, Any]) -> s
     --------
     >>> import pandas as pd
     >>> row = {"sample": "sand", "verdict": "not certified", "exponent_at_end": float("nan")}
-    >>> rows = pd.DataFrame([row])
-    >>> render_findings("{{ rows | length }} sample, {{ verdicts.known | length }} known", rows, {})
-    '1 sample, 0 known'
+    >>> template = page_environment().from_string("{{ rows | length }} row, {{ verdicts.known }}")
+    >>> render_findings(template, pd.DataFrame([row]), {})
+    '1 row, []'
     """
-    known = rows.astype(object).where(rows.notna(), None).to_dict("records")
-    # A study of which no sample has a number has no column for it.
-    records = [defaultdict(lambda: None, row) for row in known]
-    return (
-        page_environment()
-        .from_string(template)
-        .render(
-            rows=records,
-            verdicts=verdicts(known),
-            distance=next((d for d in (row["distance"] for row in records) if d is not None), None),
-            good=GOOD_DISTANCE,
-            figures=figures,
-            version=__version__,
-        )
+    records = finding_records(rows)
+    return template.render(
+        rows=records,
+        verdicts=verdicts(records),
+        distance=next((d for d in (row["distance"] for row in records) if d is not None), None),
+        good=GOOD_DISTANCE,
+        figures=figures,
     )
+
+
+def page_template(template: str | Path, glossary: str | Path) -> Template:
+    """Return the template of a page, which finds its parts beside it.
+
+    Parameters
+    ----------
+    template : path-like
+        Jinja source.
+    glossary : path-like
+        `docs/glossary.md`.
+
+    Returns
+    -------
+    Template
+    """
+    path = Path(template)
+    files = sorted(
+        file for file in path.parent.iterdir() if file.suffix in (".jinja", ".css", ".js")
+    )
+    environment = page_environment({file.name: _part(file) for file in files})
+    terms = read_glossary(Path(glossary).read_text(encoding="utf-8"))
+    named = terms_by_name(terms)
+
+    def term(name: str, shown: str | None = None) -> Markup:
+        found = named[name]
+        return Markup('<a class="term" href="#{}" data-meaning="{}">{}</a>').format(
+            found.anchor, found.meaning, with_subscripts(shown or name)
+        )
+
+    environment.globals |= {"term": term, "glossary": terms}
+    return environment.get_template(path.name)
+
+
+def _part(file: Path) -> str:
+    """Return the source of a part of a page; style and scripts are taken as they are."""
+    text = file.read_text(encoding="utf-8")
+    return text if file.suffix == ".jinja" else f"{{% raw %}}{text}{{% endraw %}}"
 
 
 def page_environment(parts: Mapping[str, str] = MappingProxyType({})) -> Environment:
@@ -190,11 +263,41 @@ def page_environment(parts: Mapping[str, str] = MappingProxyType({})) -> Environ
         "image": _image,
         "interval": _interval,
         "number": _number,
+        "prefixed": prefixed,
         "quantity": QUANTITY_WORDS.__getitem__,
         "share": share_text,
+        "subscripts": with_subscripts,
+        "tables": figure_tables,
         "trend": trend,
     }
     return environment
+
+
+def prefixed(value: float | None, unit: str = "", digits: int = 3) -> str:
+    """Format a number in the unit a reader wants, with a prefix; it may be missing.
+
+    Examples
+    --------
+    >>> prefixed(4.455e7, "Pa"), prefixed(0.0), prefixed(0.64123, digits=4), prefixed(None)
+    ('44.5 MPa', '0', '0.6412', 'none')
+    """
+    if value is None or value != value:
+        return "none"
+    power = int(f"{value:e}".partition("e")[2]) // 3 * 3 if value and unit else 0
+    power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
+    shown = float(f"{value / 10.0**power:.{digits}g}")  # 120, where digits=2 alone gives 1.2e+02
+    return f"{shown:g} {_PREFIXES[power]}{unit}".strip()
+
+
+def figure_tables(figure: str) -> list[str]:
+    """Return the tables that a figure shows, below `results/`; `<sample>` stands for its sample.
+
+    Examples
+    --------
+    >>> figure_tables("<sample>/exponent_path")[0]
+    '<sample>/energy_split_path.csv'
+    """
+    return [file.path for file in result_files() if figure in file.figures]
 
 
 def _interval(row: Mapping, name: str, where: str = "") -> Interval:

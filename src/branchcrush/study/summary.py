@@ -30,7 +30,6 @@ def summary(results: str | PathLike[str], shown_as: str | PathLike[str] | None =
         [
             *map(_sample_line, rows),
             f"report:   {shown / 'report.html'}",
-            f"findings: {shown / 'findings.html'}",
             f"figures:  {shown / 'figures'}",
         ]
     )

@@ -66,7 +66,6 @@ def test_name_kept_for_the_convergence_study_is_refused():
         "datapackage.json",
         "exponents.csv",
         "findings.csv",
-        "findings.html",
         "report.html",
         "preview.txt",
     ],

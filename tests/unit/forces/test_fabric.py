@@ -13,6 +13,7 @@ from branchcrush.forces.fabric import (
     expected_deviator,
     fabric_result,
     fabric_tensor,
+    orientation_band,
 )
 
 TRIALS, BRANCHES = 4000, 60
@@ -183,3 +184,12 @@ def test_each_seed_counts_by_its_own_number_of_branches():
 def test_as_many_forces_as_branches_are_needed():
     with pytest.raises(ValueError, match="zip"):
         fabric_result([np.eye(3)], [])
+
+
+def test_sectors_of_independent_branches_lie_in_the_band_as_often_as_it_says():
+    rng = np.random.default_rng(5)
+    counts = rng.multinomial(300, np.full(12, 1 / 12), size=2000)
+    low, high = orientation_band(300, 12)
+    inside = np.mean((counts * 12 / 300 >= low) & (counts * 12 / 300 <= high))
+    # Counts are whole numbers, so a little more than 95 % are within.
+    assert 0.945 < inside < 0.975

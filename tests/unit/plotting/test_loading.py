@@ -109,3 +109,22 @@ def test_energies_say_per_which_volume_they_are():
     }
     assert "current volume" in loading.plot_energy_balance(seeds()).get_ylabel()
     assert "volume\nat jamming" in loading.plot_elastic_law(seeds(), model).get_ylabel()
+
+
+def test_compression_curve_has_loaded_states_of_each_seed_and_their_mean():
+    path = pd.DataFrame(
+        {
+            "seed_number": [0, 0, 0, 1, 1, 1],
+            "state": [1, 2, 3] * 2,
+            "leg": "loading",
+            "carries_load": [False, True, True] * 2,
+            "mean_stress_Pa": [0.0, 1e6, 4e6, 0.0, 3e6, 8e6],
+            "void_ratio": [0.9, 0.6, 0.5, 0.9, 0.62, 0.54],
+        }
+    )
+    ax = loading.plot_compression_curve(path)
+    first, second, mean = ax.lines
+    assert first.get_xydata().tolist() == [[1.0, 0.6], [4.0, 0.5]]
+    assert second.get_xydata().tolist() == [[3.0, 0.62], [8.0, 0.54]]
+    assert_allclose(mean.get_xydata(), [[2.0, 0.61], [6.0, 0.52]])
+    assert ax.get_xscale() == "log"

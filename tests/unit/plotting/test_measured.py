@@ -66,7 +66,5 @@ def test_figures_are_files_and_a_curve_without_a_fit_says_why(tmp_path, tables):
     none = pd.DataFrame({"reason": ["no load"]})
     draw_compression(tmp_path / "none.png", 50, none, none, "no load")
     assert {file.name for file in tmp_path.iterdir()} == {
-        "gradings.png",
-        "compression.png",
-        "none.png",
+        f"{name}.{kind}" for name in ("gradings", "compression", "none") for kind in ("png", "svg")
     }

@@ -41,3 +41,33 @@ def test_states_come_in_their_order_and_only_those_there_are():
         ("end", [1, 3]),
     ]
     assert [where for where, _ in style.of_states(table[:1])] == ["end"]
+
+
+def test_panels_are_lettered_in_order_and_one_alone_is_not(tmp_path):
+    with style.figure(tmp_path / "four.png", 50, panels=(2, 2)) as panels:
+        for ax in panels.flat[:3]:
+            ax.plot([0, 1], [0, 1])
+        panels[0, 0].twinx()
+        image = panels[0, 1].imshow([[0, 1]])
+        panels[0, 1].figure.colorbar(image, ax=panels[0, 1])
+        panels[1, 1].set_axis_off()
+    written = [[text.get_text() for text in ax.texts] for ax in panels.flat]
+    assert written == [["(a)"], ["(b)"], ["(c)"], []]
+    with style.figure(tmp_path / "one.png", 50) as ax:
+        ax.plot([0, 1], [0, 1])
+    assert not ax.texts
+
+
+def test_a_figure_is_png_and_svg_with_the_same_bytes_again_and_pdf_for_who_asks(tmp_path):
+    def draw(name):
+        with style.figure(tmp_path / name, 50) as ax:
+            ax.plot([0, 1], [0, 1], label="line")
+            ax.set_xlabel(r"$\phi$")
+        return {file.suffix: file.read_bytes() for file in tmp_path.glob(f"{name[:-4]}.*")}
+
+    first, again = draw("a.png"), draw("b.png")
+    assert first == again and set(first) == {".png", ".svg"}
+    # Letters are outlines: no font is asked for.
+    assert b"<text" not in first[".svg"] and b"<dc:date>" not in first[".svg"]
+    pdf = draw("c.pdf")
+    assert set(pdf) == {".pdf"} and b"/FontFile2" in pdf[".pdf"]

@@ -34,7 +34,6 @@ CLOSING = [
     "paper: certified, n = 3.11, with 95 % confidence between 2.99 and 3.24 (16 packings), "
     "at solid fraction 0.741",
     "report:   results/report.html",
-    "findings: results/findings.html",
     "figures:  results/figures",
 ]
 

@@ -11,10 +11,13 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.samples.certificate import LIMITS
 from branchcrush.statistics.intervals import Interval
-from branchcrush.study.pages import SamplePage, render_report
+from branchcrush.study.pages import SamplePage, page_template, render_report
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"
-FIGURES = re.findall(r"s\.figures\.(\w+)", TEMPLATE.read_text(encoding="utf-8"))
+GLOSSARY = TEMPLATE.parents[2] / "docs" / "glossary.md"
+SECTIONS = TEMPLATE.with_name("sample.html.jinja").read_text(encoding="utf-8")
+FIGURES = re.findall(r'fig\("(\w+)"', SECTIONS)
+TEMPLATE_OF_PAGE = page_template(TEMPLATE, GLOSSARY)
 
 FORM = {
     "reason": None,
@@ -134,7 +137,13 @@ def whole_fit(sample: Callable) -> EnergySplitFit:
 
 
 def rendering(folder: Path, fit: EnergySplitFit) -> Callable:
-    """Return a function that renders samples and returns the page without its images."""
+    """Return a function that renders samples and returns the page, its white space closed up."""
+    whole = page_rendering(folder, fit)
+    return lambda *samples, **keys: re.sub(r"\s+", " ", whole(*samples, **keys))
+
+
+def page_rendering(folder: Path, fit: EnergySplitFit) -> Callable:
+    """Return a function that renders samples and returns the page as a browser takes it."""
     image = folder / "figure.png"
     image.write_bytes(b"pixels")
 
@@ -160,12 +169,11 @@ def rendering(folder: Path, fit: EnergySplitFit) -> Callable:
         return SamplePage(**(whole | parts))
 
     def render(*samples, **keys):
-        html = render_report(
-            TEMPLATE.read_text(encoding="utf-8"), [sample(**parts) for parts in samples], **keys
-        )
+        html = render_report(TEMPLATE_OF_PAGE, [sample(**parts) for parts in samples], **keys)
         assert not re.search(r"\b(nan|None|NaN|Undefined)\b", html)
+        assert not re.search(r'(href|src)="[^"]*(<|&lt;|%3C)', html)
         assert html.count("<ul") == html.count("</ul>")
         assert html.count("<table") == html.count("</table>")
-        return re.sub(r"\s+", " ", html)
+        return html
 
     return render

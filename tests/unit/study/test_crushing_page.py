@@ -7,9 +7,11 @@ import pytest
 
 from branchcrush.files.tables import read_json, write_json
 from branchcrush.study.crushing_page import CrushingPage, form_rows, leads, render_crushing
+from branchcrush.study.pages import page_template
 from tests.unit.samples.test_crushed import results
 
-TEMPLATE = Path(__file__).parents[3].joinpath("workflow/report/crushing.html.jinja").read_text()
+ROOT = Path(__file__).parents[3]
+TEMPLATE = page_template(ROOT / "workflow/report/crushing.html.jinja", ROOT / "docs/glossary.md")
 FIGURES = ("crushed_line", "crushed_gradings", "crushed_energy", "crushed_predicted", "who_breaks")
 
 
@@ -69,13 +71,13 @@ def test_what_is_predicted_without_a_simulation_stands_with_its_errors_or_the_re
     page = page_of(crushed, figures, tmp_path)
     assert "It predicts within 20 %. There are walls." in text(page)
     assert "strengths alone: above, with the errors." in text(page)
-    assert page.count('<figure class="wide">') == 2
+    assert page.count('<figure class="wide"') == 2
     none = {"reason": "why", "sentences": ["Nothing is predicted: why."]}
     page = page_of(crushed, figures, tmp_path, none)
     assert "Nothing is predicted: why." in text(page)
     assert "strengths alone: not here; why stands above." in text(page)
     # A sentence needs no wide figure, of which a narrow screen shows a part.
-    assert page.count('<figure class="wide">') == 1
+    assert page.count('<figure class="wide"') == 1
 
 
 def test_how_long_branches_are_is_told_beside_the_predictions(crushed):

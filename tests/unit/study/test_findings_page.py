@@ -10,9 +10,10 @@ import pytest
 
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.findings import finding_row
-from branchcrush.study.pages import render_findings
+from branchcrush.study.pages import page_template, render_findings
 
-TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "findings.html.jinja"
+TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "together.html.jinja"
+GLOSSARY = TEMPLATE.parents[2] / "docs" / "glossary.md"
 FIGURES = ("exponents", "lengths", "energies", "coordination", "shielding", "forces")
 INTERVALS = {"confidence": 0.95, "resamples": 100}
 
@@ -26,7 +27,7 @@ def page(tmp_path):
     def render(*samples, distance=0.1):
         rows = pd.DataFrame([finding_row(sample, distance, INTERVALS) for sample in samples])
         source = render_findings(
-            TEMPLATE.read_text(encoding="utf-8"), rows, dict.fromkeys(FIGURES, image)
+            page_template(TEMPLATE, GLOSSARY), rows, dict.fromkeys(FIGURES, image)
         )
         assert not re.search(r"\b(nan|None|NaN|Undefined)\b", source)
         assert source.count("<table") == source.count("</table>")
@@ -153,7 +154,7 @@ def test_a_second_solution_of_random_parking_is_named(page, sample):
 def test_a_study_without_any_number_says_why():
     columns = {"verdict": ["not certified"], "verdict_reasons": ["2 packings carry no load"]}
     rows = pd.DataFrame({"sample": ["loose"], "reason": ["no load"], **columns})
-    source = render_findings(TEMPLATE.read_text(encoding="utf-8"), rows, {})
+    source = render_findings(page_template(TEMPLATE, GLOSSARY), rows, {})
     assert "Not all is known of loose: no load." in source
     assert "2 packings carry no load" in source
     assert "1. Where n" not in source

@@ -8,8 +8,10 @@ import pytest
 from branchcrush.gradings.forms import uniform
 from branchcrush.samples.measured import breakage_results
 from branchcrush.study.measured_page import MeasuredPage, render_measured
+from branchcrush.study.pages import page_template
 
-TEMPLATE = Path(__file__).parents[3].joinpath("workflow/report/measured.html.jinja").read_text()
+ROOT = Path(__file__).parents[3]
+TEMPLATE = page_template(ROOT / "workflow/report/measured.html.jinja", ROOT / "docs/glossary.md")
 WAY = {"ultimate_alpha": 2.6, "ultimate_smallest": 1e-5}
 FIT = {
     "points": 12,
@@ -73,7 +75,7 @@ def test_breakage_and_fit_are_on_the_page(breakages, figure):
 
 def test_without_a_grading_after_the_test_there_is_no_table_of_breakage(breakages, figure):
     said = text(render_measured(TEMPLATE, [MeasuredPage("sand", breakages[1], figure)]))
-    assert "Hardin" not in said and "Resistance" not in said.replace("resistance to", "")
+    assert "Hardin's B" not in said and "Resistance" not in said.replace("resistance to", "")
     assert "No grading after the test is given" in said
 
 

@@ -32,7 +32,7 @@ def page(tmp_path, fit):
 def test_page_shows_exponent_verdict_and_all_figures(page):
     html = page({})
     assert "n = 3.11 (95% interval 2.99 to 3.24) at &phi; = 0.741" in html
-    assert "<h3>Certificate: certified</h3>" in html
+    assert ">Quality: certified<" in html
     assert html.count("data:image/png;base64,") == len(FIGURES)
     assert "No exponent" not in html
 
@@ -143,7 +143,7 @@ def test_pages_of_samples_hold_their_own_figures(page, tmp_path):
     other = tmp_path / "other.png"
     other.write_bytes(b"other")
     html = page({}, {"name": "results", "figures": dict.fromkeys(FIGURES, other)})
-    first, second = html.split('<h2 id="results">')
+    first, second = html.split('<h2 id="sample-results">')
     assert first.count("cGl4ZWxz") == len(FIGURES) == second.count("b3RoZXI=")
 
 
@@ -191,8 +191,8 @@ def test_page_compares_both_runs_where_the_exponent_is_missing(page):
     stress |= {"compared_by": "pairs", "could_see": 5e4, "verdict": "converged"}
     html = page({"certificate": {"convergence": [exponent, stress]}})
     assert "<td>n</td><td>1 against 2</td> <td>none</td>" in html
-    assert "<td>mean stress [Pa]</td><td>1 pair</td> <td>1e+06</td>" in html
-    assert "<td>5e+04</td><td>0.1</td><td>converged</td>" in html
+    assert "<td>mean stress</td><td>1 pair</td> <td>1 MPa</td>" in html
+    assert "<td>50 kPa</td><td>100 mPa</td><td>converged</td>" in html
 
 
 def test_page_tells_of_the_way_back(page):

@@ -61,7 +61,6 @@ def test_model_without_data_leaves_the_exponent(written):
 def test_report_and_figures_are_named(written, tmp_path):
     assert written(ROW)[1:] == [
         f"report:   {tmp_path / 'report.html'}",
-        f"findings: {tmp_path / 'findings.html'}",
         f"figures:  {tmp_path / 'figures'}",
     ]
 
@@ -70,6 +69,5 @@ def test_folder_is_named_as_its_reader_sees_it(tmp_path):
     write_table(tmp_path / "comparison.csv", [ROW], provenance())
     assert summary(tmp_path, shown_as="sand/results").splitlines()[1:] == [
         "report:   sand/results/report.html",
-        "findings: sand/results/findings.html",
         "figures:  sand/results/figures",
     ]

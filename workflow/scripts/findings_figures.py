@@ -1,13 +1,10 @@
-"""Draw all samples together, and write the page to judge them by."""
+"""Draw all samples together."""
 
-from pathlib import Path
-
-from branchcrush.files.tables import read_table, write_text
+from branchcrush.files.tables import read_table
 from branchcrush.plotting import study_figures as figures
 from branchcrush.plotting.study import sample_styles
 from branchcrush.records import recorded_job
 from branchcrush.study.kinds import SampleKind
-from branchcrush.study.pages import render_findings
 
 with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
@@ -23,6 +20,3 @@ with recorded_job(snakemake):
     figures.draw_coordination(output.coordination, params.dpi, states, styles)
     figures.draw_shielding(output.shielding, params.dpi, branches, grains, styles)
     figures.draw_forces(output.forces, params.dpi, stress, forces, styles)
-    template = Path(params.template).read_text(encoding="utf-8")
-    drawn = {name: output[name] for name in params.figures}
-    write_text(output.page, render_findings(template, rows, drawn))
