@@ -137,10 +137,17 @@ def code(script, *others):
 GLOSSARY = str(ROOT / "docs/glossary.md")
 
 
+# The view of grains in three dimensions, which pages include.
+VIEWER = [
+    f"viewer/{name}"
+    for name in ("viewer.html.jinja", "viewer.css", "data.js", "draw.js", "viewer.js")
+]
+
+
 def page_files(*parts, page):
     """Return the files that a page is rendered from: its template, its parts, and what all share."""
     shared = ["base.html.jinja", "parts.html.jinja", "page.css", "page.js"]
-    own = [f"{name}.html.jinja" for name in (page, *parts)]
+    own = [name if "." in name else f"{name}.html.jinja" for name in (page, *parts)]
     return [*(str(ROOT / "workflow/report" / name) for name in own + shared), GLOSSARY]
 
 

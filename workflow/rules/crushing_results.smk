@@ -70,9 +70,12 @@ rule crushing_figures:
         controls=of_all_seeds("path.csv"),
         grains=lambda wildcards: of_crushed_seeds("grains.parquet")(wildcards)[:1],
         path=lambda wildcards: of_crushed_seeds("path.csv")(wildcards)[:1],
+        contacts=lambda wildcards: of_crushed_seeds("contacts.parquet")(wildcards)[:1],
+        walls=lambda wildcards: of_crushed_seeds("wall_contacts.parquet")(wildcards)[:1],
     output:
         **{name: figure(name) for name in CRUSHING_FIGURES},
         **as_svg(CRUSHING_FIGURES),
+        view="results/figures/{sample}/crushed_view.json",
         record="results/{sample}/made/crushing_figures.json",
     log:
         "logs/{sample}/crushing_figures.log",
@@ -80,6 +83,8 @@ rule crushing_figures:
         "../envs/branchcrush.yaml"
     params:
         code=code("crushing_figures"),
+        sample=section("contact", "boundary"),
+        views=len(BREAKING),
         tables=list(CRUSHING_TABLES),
         dpi=SETTINGS.figures.dpi,
     script:
@@ -97,6 +102,7 @@ rule crushing_page:
         predicted=expand("results/{sample}/crushing_predicted.json", sample=BREAKING),
         beside=expand("results/{sample}/crushing_beside_forms.csv", sample=BREAKING),
         means=expand("results/{sample}/crushing_means.csv", sample=BREAKING),
+        views=expand("results/figures/{sample}/crushed_view.json", sample=BREAKING),
     output:
         page="results/crushing.html",
         record="results/made/crushing_page.json",
@@ -105,7 +111,7 @@ rule crushing_page:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("crushing_page", *page_files(page="crushing")),
+        code=code("crushing_page", *page_files(*VIEWER, page="crushing")),
         template=CRUSHING_PAGE,
         glossary=GLOSSARY,
         samples=BREAKING,

@@ -59,9 +59,11 @@ rule packing_figures:
         packing=of_first_seed("packing.npz"),
         compressed=of_first_seed("compressed.parquet"),
         contacts=of_first_seed("contacts.parquet"),
+        walls=of_first_seed("wall_contacts.parquet"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
         **as_svg(PACKING_FIGURES),
+        view="results/figures/{sample}/view.json",
         record="results/{sample}/made/packing_figures.json",
     log:
         "logs/{sample}/packing_figures.log",
@@ -69,8 +71,9 @@ rule packing_figures:
         "../envs/branchcrush.yaml"
     params:
         code=code("packing_figures"),
-        sample=section("packing", "grading"),
+        sample=section("packing", "grading", "contact", "boundary"),
         tables=NETWORK_TABLES,
+        views=len(SAMPLES),
         dpi=SETTINGS.figures.dpi,
     script:
         "../scripts/packing_figures.py"
@@ -149,6 +152,7 @@ rule report:
         statistics=expand("results/{sample}/branch_lengths.json", sample=SAMPLES),
         certificates=expand("results/{sample}/certificate.json", sample=SAMPLES),
         gradings=expand("results/{sample}/grading.json", sample=SAMPLES),
+        views=expand("results/figures/{sample}/view.json", sample=SAMPLES),
     output:
         "results/report.html",
         record="results/made/report.json",
@@ -157,7 +161,7 @@ rule report:
     conda:
         "../envs/branchcrush.yaml"
     params:
-        code=code("report", *page_files("sample", "together", page="report")),
+        code=code("report", *page_files("sample", "together", *VIEWER, page="report")),
         templates=[REPORT, TOGETHER],
         glossary=GLOSSARY,
         samples=SAMPLES,

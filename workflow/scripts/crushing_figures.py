@@ -1,10 +1,12 @@
 """Draw what the crushing of a sample shows."""
 
-from branchcrush.files.tables import read_json, read_table
+from branchcrush.files.tables import provenance, read_json, read_table, write_json
+from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import crushed_figures as figures
 from branchcrush.plotting.crushed_lengths import draw_lengths
 from branchcrush.plotting.crushing_predicted import draw_crushing_predicted
 from branchcrush.records import recorded_job
+from branchcrush.study.viewer_states import packing_view
 
 with recorded_job(snakemake):
     files, output, dpi = snakemake.input, snakemake.output, snakemake.params.dpi
@@ -22,3 +24,14 @@ with recorded_job(snakemake):
     predictions = tables["predicted"], tables["beside_predicted"], prediction["reason"]
     draw_crushing_predicted(output.crushed_predicted, dpi, *predictions)
     figures.draw_packing(output.crushed_packing, dpi, grains, path, summary)
+    sample = snakemake.params.sample
+    view = packing_view(
+        grains,
+        path,
+        read_table(files.contacts[0]),
+        read_table(files.walls[0]),
+        contact_exponent=contact_law(**sample["contact"]).exponent,
+        periodic=sample["boundary"] == "periodic",
+        views=snakemake.params.views,
+    )
+    write_json(output.view, view, provenance())

@@ -16,6 +16,7 @@ with recorded_job(snakemake):
             read_table(files.beside[k]),
             read_json(files.grains[k])["sentences"],
             read_json(files.predicted[k]),
+            read_json(files.views[k]),
         )
         for k, name in enumerate(params.samples)
     ]

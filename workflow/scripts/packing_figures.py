@@ -1,10 +1,15 @@
 """Draw the packings of a sample: grading, two states, certificate, and who touches and carries."""
 
+from pathlib import Path
+
 from branchcrush.config.build import grading_of
-from branchcrush.files.tables import read_json, read_packing, read_table
+from branchcrush.files.tables import provenance, read_json, read_packing, read_table, write_json
+from branchcrush.lammps.files import read_dump
+from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
 from branchcrush.records import recorded_job
+from branchcrush.study.viewer_states import compression_grains, dumped_grains, packing_view
 
 with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
@@ -25,3 +30,22 @@ with recorded_job(snakemake):
     contacts = read_table(files.contacts[0])
     networks.draw_chains(output.force_chains, dpi, compressed, contacts, path)
     networks.draw_rose(output.contact_rose, dpi, contacts, path)
+
+    # Every state has its grains in the dump, where that is kept.
+    dump = Path(files.path[0]).with_name("particles.dump.gz")
+    grains = (
+        dumped_grains(read_dump(dump), path["state"])
+        if dump.exists()
+        else compression_grains(packing, compressed, path)
+    )
+    view = packing_view(
+        grains,
+        path,
+        contacts,
+        read_table(files.walls[0]),
+        contact_exponent=contact_law(**params.sample["contact"]).exponent,
+        periodic=params.sample["boundary"] == "periodic",
+        views=params.views,
+        read=read,
+    )
+    write_json(output.view, view, provenance())

@@ -27,9 +27,16 @@ with recorded_job(snakemake):
             figures=dict(zip(params.figures, figures, strict=True)),
             forms=read_table(forms),
             row=row,
+            view=read_json(view),
         )
-        for (name, settings), (fit, *others), figures, forms, row in zip(
-            params.samples.items(), results, drawn, files.forms, finding_records(rows), strict=True
+        for (name, settings), (fit, *others), figures, forms, row, view in zip(
+            params.samples.items(),
+            results,
+            drawn,
+            files.forms,
+            finding_records(rows),
+            files.views,
+            strict=True,
         )
     ]
     report, findings = (page_template(path, params.glossary) for path in params.templates)

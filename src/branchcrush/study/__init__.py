@@ -22,8 +22,7 @@
     The same for what a laboratory measured, and for grains that break.
 `viewer`, `viewer_states`
     Grains in 3-D: `viewer_states` takes saved states out of tables, `viewer_data` packs them for
-    the macro `viewer` of `workflow/report/viewer/viewer.html.jinja`, which a page imports once it
-    is rendered with `page_environment(viewer_parts(folder))`.
+    the macro `viewer` of `workflow/report/viewer/viewer.html.jinja`; `packing_view` does both.
 
 A new number of all samples is a line of `findings.finding_row`; a new question is a line of
 `verdicts.verdicts` and a sentence of the template. A new warning before a run is one of

@@ -30,6 +30,8 @@ class CrushingPage:
         Sentences of `crushed_grains.json`, on who breaks and how energy is split meanwhile.
     predicted : mapping
         `crushing_predicted.json`.
+    view : mapping
+        `crushed_view.json`.
     """
 
     name: str
@@ -39,6 +41,7 @@ class CrushingPage:
     beside: Table
     grains: Sequence[str] = ()
     predicted: Mapping[str, Any] = field(default_factory=dict)
+    view: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def leads(self) -> dict[str, str]:

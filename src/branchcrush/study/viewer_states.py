@@ -1,8 +1,6 @@
 """The states that the page draws, out of the tables of a run."""
 
 from collections.abc import Iterable, Mapping
-from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,31 +9,53 @@ from numpy.typing import NDArray
 from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_energy, grain_stress_volume
 from branchcrush.packings.network import Table, state_networks, state_rows
-from branchcrush.study.viewer import WALLS, ViewerState
+from branchcrush.study.viewer import PAGE_BYTES, WALLS, ViewerState, viewer_data
 
 _COORDINATES = ("x_m", "y_m", "z_m")
-# The macro, and what it puts into the page, in `workflow/report/viewer`.
-PARTS = ("viewer.html.jinja", "viewer.css", "data.js", "draw.js", "viewer.js")
+# What the views of a page may hold together, and each at least.
+_OF_ALL, _OF_EACH = PAGE_BYTES, 100_000
 
 
-def viewer_parts(folder: str | PathLike[str]) -> dict[str, str]:
-    """Return what a page with a view of grains is rendered with: `pages.page_environment(parts)`.
+def packing_view(
+    grains: Table,
+    path: Table,
+    contacts: Table,
+    walls: Table,
+    *,
+    contact_exponent: float,
+    periodic: bool,
+    views: int = 1,
+    loose: NDArray | None = None,
+    read: bool = False,
+) -> dict[str, Any]:
+    """Return the states of a packing, packed for a page that has some views of packings.
 
     Parameters
     ----------
-    folder : path-like
-        `workflow/report/viewer`, the `PARTS`.
+    grains, path, contacts, walls, contact_exponent, loose
+        As for `viewer_states`.
+    periodic : bool
+        Whether the cell is; otherwise it has walls.
+    views : int
+        On the page, which share what it may hold.
+    read : bool
+        Whether another code made the packing, whose cell may have any shape: it is not drawn.
 
     Returns
     -------
-    dict of str to str
-        Jinja source by name; style and scripts are taken as they are.
+    dict
+        `view.json`: header and data of `viewer.viewer_data`.
     """
-    texts = {name: Path(folder, name).read_text(encoding="utf-8") for name in PARTS}
-    return {
-        name: text if name.endswith(".jinja") else f"{{% raw %}}{text}{{% endraw %}}"
-        for name, text in texts.items()
-    }
+    if read:
+        reason = "the cell of another code's packing may have any shape"
+        return {"header": {"reason": reason}, "data": ""}
+    states = viewer_states(
+        grains, path, contacts, walls, contact_exponent=contact_exponent, loose=loose
+    )
+    limit = max(_OF_ALL // max(views, 1), _OF_EACH)
+    saved = len(np.asarray(path["state"]))
+    packed = viewer_data(states, periodic=periodic, limit_bytes=limit, saved_states=saved)
+    return {"header": packed.header, "data": packed.data}
 
 
 def compression_grains(

@@ -5,11 +5,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot as plt
 
-from branchcrush.study.pages import page_environment
+from branchcrush.study.pages import page_environment, page_parts
 from branchcrush.study.viewer import ViewerState
-from branchcrush.study.viewer_states import viewer_parts
 
-REPORT = Path(__file__).parents[3] / "workflow/report/viewer"
+REPORT = Path(__file__).parents[3] / "workflow/report"
 PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>grains</title>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <style>body {margin: 0 1rem}</style>
@@ -53,7 +52,7 @@ def write_page(folder, views):
     """Write a page with the views, by their names, and return its path."""
     still = folder / "still.png"
     plt.imsave(still, np.full((40, 80, 3), 0.4))
-    page = page_environment(viewer_parts(REPORT)).from_string(PAGE)
+    page = page_environment(page_parts(REPORT)).from_string(PAGE)
     path = folder / "page.html"
     path.write_text(page.render(views=list(views.items()), still=still), encoding="utf-8")
     return path
