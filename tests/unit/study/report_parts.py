@@ -12,6 +12,7 @@ from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.samples.certificate import LIMITS
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.pages import SamplePage, page_template, render_report
+from tests.unit.study.pictures import write_picture
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"
 GLOSSARY = TEMPLATE.parents[2] / "docs" / "glossary.md"
@@ -145,7 +146,7 @@ def rendering(folder: Path, fit: EnergySplitFit) -> Callable:
 def page_rendering(folder: Path, fit: EnergySplitFit) -> Callable:
     """Return a function that renders samples and returns the page as a browser takes it."""
     image = folder / "figure.png"
-    image.write_bytes(b"pixels")
+    write_picture(image)
 
     def sample(name="paper", **parts):
         certificate = {**CERTIFICATE, **parts.pop("certificate", {})}

@@ -9,6 +9,7 @@ from branchcrush.files.tables import read_json, write_json
 from branchcrush.study.crushing_page import CrushingPage, form_rows, leads, render_crushing
 from branchcrush.study.pages import page_template
 from tests.unit.samples.test_crushed import results
+from tests.unit.study.pictures import write_picture
 
 ROOT = Path(__file__).parents[3]
 TEMPLATE = page_template(ROOT / "workflow/report/crushing.html.jinja", ROOT / "docs/glossary.md")
@@ -21,7 +22,7 @@ PREDICTED = {"reason": None, "sentences": ["It predicts within 20 %.", "There ar
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "figure.png"
-    path.write_bytes(b"png")
+    write_picture(path)
     return dict.fromkeys(FIGURES, path)
 
 

@@ -11,6 +11,7 @@ import pytest
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.findings import finding_row
 from branchcrush.study.pages import page_template, render_findings
+from tests.unit.study.pictures import write_picture
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "together.html.jinja"
 GLOSSARY = TEMPLATE.parents[2] / "docs" / "glossary.md"
@@ -22,7 +23,7 @@ INTERVALS = {"confidence": 0.95, "resamples": 100}
 def page(tmp_path):
     """Return a function that renders samples and returns the words of the page."""
     image = tmp_path / "figure.png"
-    image.write_bytes(b"pixels")
+    write_picture(image)
 
     def render(*samples, distance=0.1):
         rows = pd.DataFrame([finding_row(sample, distance, INTERVALS) for sample in samples])

@@ -9,6 +9,7 @@ from branchcrush.gradings.forms import uniform
 from branchcrush.samples.measured import breakage_results
 from branchcrush.study.measured_page import MeasuredPage, render_measured
 from branchcrush.study.pages import page_template
+from tests.unit.study.pictures import write_picture
 
 ROOT = Path(__file__).parents[3]
 TEMPLATE = page_template(ROOT / "workflow/report/measured.html.jinja", ROOT / "docs/glossary.md")
@@ -45,7 +46,7 @@ FIT = {
 @pytest.fixture(scope="module")
 def figure(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "figure.png"
-    path.write_bytes(b"png")
+    write_picture(path)
     return path
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from branchcrush.crushing.paper_form import admissibility_problem
 from branchcrush.statistics.intervals import Interval
+from tests.unit.study.pictures import write_picture
 from tests.unit.study.report_parts import (
     FIGURES,
     GRADING,
@@ -141,10 +142,14 @@ def test_one_state_is_said_to_be_one(page, fit, loading, advice):
 
 def test_pages_of_samples_hold_their_own_figures(page, tmp_path):
     other = tmp_path / "other.png"
-    other.write_bytes(b"other")
+    write_picture(other, (40, 40, 200))
     html = page({}, {"name": "results", "figures": dict.fromkeys(FIGURES, other)})
     first, second = html.split('<h2 id="sample-results">')
-    assert first.count("cGl4ZWxz") == len(FIGURES) == second.count("b3RoZXI=")
+    drawn, others = (
+        re.findall(r"data:image/png;base64,([^\"]+)", part) for part in (first, second)
+    )
+    assert len(drawn) == len(others) == len(FIGURES)
+    assert len(set(drawn)) == len(set(others)) == 1 and set(drawn) != set(others)
 
 
 def test_page_tells_the_basis_and_the_loading_it_was_given(page):
