@@ -135,6 +135,9 @@ class Project(Study):
             source = ROOT / name
             copy = shutil.copytree if source.is_dir() else shutil.copy
             copy(source, folder / name)
+        # The terms that pages explain.
+        (folder / "docs").mkdir()
+        shutil.copy(ROOT / "docs/glossary.md", folder / "docs")
         self._move_to(folder)
         self.configure(TINY)
 

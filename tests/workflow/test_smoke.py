@@ -10,6 +10,7 @@ from matplotlib import image
 
 from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.study.summary import summary
+from tests.pages import said
 
 SEEDS = (3, 5)
 FIGURES = (
@@ -259,9 +260,10 @@ def test_no_figure_is_blank(finished, figure):
 def test_the_report_shows_every_figure_and_the_exponent(finished):
     page = (finished.folder / "results" / "report.html").read_text(encoding="utf-8")
     fit = read_json(finished.folder / "results/tiny/energy_split.json")
-    assert page.count("data:image/png;base64,") == len(FIGURES)
+    # And the still picture of the view in three dimensions.
+    assert page.count("data:image/png;base64,") == len(FIGURES) + 1
     assert f"n = {fit['exponent']:.2f}" in page
-    assert not re.search(r"nan|None|https?://", re.sub(r"base64,[^\"]+", "", page))
+    assert not re.search(r"\bnan\b|\bNone\b|https?://", said(page))
 
 
 def test_the_summary_names_exponent_interval_and_figures(finished):

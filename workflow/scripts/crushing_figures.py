@@ -34,4 +34,5 @@ with recorded_job(snakemake):
         periodic=sample["boundary"] == "periodic",
         views=snakemake.params.views,
     )
-    write_json(output.view, view, provenance())
+    origin = provenance(sample=snakemake.wildcards.sample, config=sample)
+    write_json(output.view, view, origin)

@@ -48,4 +48,5 @@ with recorded_job(snakemake):
         views=params.views,
         read=read,
     )
-    write_json(output.view, view, provenance())
+    origin = provenance(sample=snakemake.wildcards.sample, config=params.sample)
+    write_json(output.view, view, origin)
