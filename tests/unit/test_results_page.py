@@ -25,7 +25,10 @@ def test_the_page_is_in_step_with_the_dictionary(results_page):
 
 def test_every_file_and_every_column_is_on_the_page():
     page = (DOCS / "results.md").read_text(encoding="utf-8")
+    assert "beside each the same as SVG" in page
     for file in result_files():
+        if file.path.endswith(".svg"):
+            continue
         assert f"`{file.path}`" in page
         for line in file.lines:
             assert f"| `{line.name}` | {line.type} | {line.unit} |" in page

@@ -191,7 +191,10 @@ def _crushing(model: Mapping[str, Any]) -> Iterator[str]:
     label = next((row["label"] for row in form_rows(model) if row["name"] == model["form"]), "")
     front = model["forms"][model["form"]]
     if model["yield_strain"] is None:
-        yield f"Nothing breaks in these packings; by the crushing model ({label.lower()}) crushing never begins."
+        yield (
+            f"Nothing breaks in these packings; by the crushing model ({label.lower()}) crushing "
+            "never begins."
+        )
         return
     beyond = "" if model["yields_on_path"] else ", beyond what was measured"
     then = "more stress is needed to go on" if model["hardens_at_onset"] else "it goes on by itself"
