@@ -5,6 +5,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# How long an example takes is no result: a machine may have other work.
+settings.register_profile("branchcrush", deadline=None)
+settings.load_profile("branchcrush")
 
 # The longest first, so that no worker is left with one of them at the end.
 FIRST = ("tests/workflow/test_interrupted.py", "tests/workflow/")

@@ -62,7 +62,7 @@ def with_key(text, path, typed):
         (
             "contact",
             "{law: linear, normal_stiffness: 0}",
-            ".normal_stiffness = 0 N/m: must be a number above 0 and at most 1e+15 N/m",
+            ".normal_stiffness = 0 N/m: must be a number from 1e-09 to 1e+15 N/m",
         ),
         (
             "contact",
@@ -73,7 +73,7 @@ def with_key(text, path, typed):
         (
             "contact",
             "{law: hertz, poisson_ratio: 0.2}",
-            ".young_modulus: missing; must be a number above 0 and at most 1e+15 Pa",
+            ".young_modulus: missing; must be a number from 0.001 to 1e+15 Pa",
         ),
         ("contact", HERTZ % 0.6, ".poisson_ratio = 0.6: must be a number from 0 to 0.5"),
         # Loading.
