@@ -14,7 +14,7 @@ from branchcrush.jobs import job
 
 # Params of a rule that do not decide what its results hold: where its sources lie (the digest in
 # `code` tells what is in them), and which dumps are kept.
-_NOT_COMPARED = ("code", "inputs", "template", "keep_dumps")
+_NOT_COMPARED = ("code", "inputs", "template", "templates", "glossary", "keep_dumps")
 _MOST_NAMED = 3
 # From the least.
 KEPT_DUMPS = ("none", "last", "all")

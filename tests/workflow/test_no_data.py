@@ -98,7 +98,7 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
     assert not re.search(r"\bnan\b|\bNone\b|https?://", said(page))
     for name in ("alike", "loose"):
         figures = list((no_data / "figures" / name).glob("*.png"))
-        assert len(figures) == 15
+        assert len(figures) == 18
         for figure in figures:
             assert (image.imread(figure)[..., :3].min(axis=-1) < 0.9).any(), figure
 

@@ -29,6 +29,9 @@ FIGURES = (
     "predictors",
     "who_touches_whom",
     "sharing",
+    "force_chains",
+    "contact_rose",
+    "compression_curve",
 )
 PATH_COLUMNS = [
     "state",

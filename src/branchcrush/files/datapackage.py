@@ -35,6 +35,7 @@ _RUN_AGAIN = ("compression", "certificate", "crushing")
 OF_BREAKING = (
     "crushing",
     "crushing_results",
+    "crushing_predicted",
     "crushing_figures",
     "crushed_grains",
     "crushed_grains_figures",
