@@ -29,20 +29,24 @@ def test_on_a_pipe_a_run_is_a_line_for_each_job_and_its_closing_lines(finished):
         assert re.match(rf"{name}: state 13 of 13, phi 0\.741, \d\d\.\d MPa, done in ", line)
     for name in ("energy split of tiny", "report", "findings page"):
         assert len([end for end in ends if end.startswith(f"{name} done (")]) == 1
-    assert "Finished in " in lines[-5]
-    assert lines[-4:] == closing_lines(finished)
+    closing = closing_lines(finished)
+    assert "Finished in " in lines[-len(closing) - 1]
+    assert lines[-len(closing) :] == closing
 
 
 def closing_lines(study, folder="results"):
-    return summary(study.folder / "results", shown_as=folder).splitlines()
+    lines = summary(study.folder / "results", shown_as=folder).splitlines()
+    assert [line.partition(":")[0] for line in lines] == ["tiny", "report", "figures"]
+    return lines
 
 
 @pytest.mark.parametrize("quiet", [(), ("--quiet",)])
 def test_where_nothing_is_to_be_done_the_closing_lines_come_too(finished, quiet):
     run = finished.snakemake(*quiet)
     lines = (run.stdout + run.stderr).splitlines()
-    assert lines[-5].startswith("Nothing to be done")
-    assert lines[-4:] == closing_lines(finished)
+    closing = closing_lines(finished)
+    assert lines[-len(closing) - 1].startswith("Nothing to be done")
+    assert lines[-len(closing) :] == closing
 
 
 def test_from_another_folder_the_profile_is_read_and_paths_lead_to_the_pages(finished, study):
@@ -51,8 +55,8 @@ def test_from_another_folder_the_profile_is_read_and_paths_lead_to_the_pages(fin
     run = study.snakemake("--directory", str(finished.folder))
     assert "Nothing to be done" in run.stderr
     assert "Using workflow specific profile" in run.stderr
-    folder = finished.folder / "results"
-    assert run.stderr.splitlines()[-4:] == closing_lines(finished, folder)
+    closing = closing_lines(finished, finished.folder / "results")
+    assert run.stderr.splitlines()[-len(closing) :] == closing
 
 
 def in_a_terminal(study, *arguments):

@@ -32,7 +32,7 @@ _DUMP = ".dump.gz"
 # Of the seeds that are run again there is no more.
 _RUN_AGAIN = ("compression", "certificate", "crushing")
 # Of samples whose grains break; the first of the seeds that are run again, too.
-OF_BREAKING = (
+_OF_BREAKING = (
     "crushing",
     "crushing_results",
     "crushing_predicted",
@@ -43,6 +43,8 @@ OF_BREAKING = (
 )
 # Of packings that another code made; and of those made here alone, what is not read.
 _OF_READ = ("read_packing", "read_radii")
+# What a study may lack without lacking anything.
+OF_SOME_SAMPLES = _OF_BREAKING + _OF_READ
 _OF_COMPRESSED = "<sample>/seed_<seed>/packing.data"
 # Of materials that a laboratory measured; the second of those with a compression curve.
 _OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
@@ -99,7 +101,7 @@ def data_package(
             paths = _paths_of_materials(file, measured or {})
         else:
             everything = {**samples, **(run_again if file.rule in _RUN_AGAIN else {})}
-            if file.rule in OF_BREAKING:
+            if file.rule in _OF_BREAKING:
                 everything = {name: everything[name] for name in everything if name in breaking}
             if file.rule in _OF_READ:
                 everything = {name: everything[name] for name in everything if name in read}

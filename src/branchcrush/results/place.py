@@ -83,7 +83,7 @@ class Place:
         if self.package.finished:
             return self.package.gone(self.prefix)
         results = self.results.values()
-        return [one.missing for one in results if one.missing and not one.of_breaking]
+        return [one.missing for one in results if one.missing and not one.of_some_samples]
 
     def __getattr__(self, name: str) -> Result:
         if name.startswith("_"):  # asked by copies and notebooks, of objects not yet complete

@@ -10,7 +10,7 @@ import pandas as pd
 
 from branchcrush import __version__
 from branchcrush.errors import ResultsError
-from branchcrush.files.datapackage import OF_BREAKING
+from branchcrush.files.datapackage import OF_SOME_SAMPLES
 from branchcrush.files.dictionary import Column, ResultFile
 from branchcrush.files.origin import read_provenance
 from branchcrush.files.tables import read_json, read_table
@@ -92,9 +92,9 @@ class Result:
         return f"{names} {verb} not there: rule {self._files[gone[0]].rule} writes {it}"
 
     @property
-    def of_breaking(self) -> bool:
-        """Whether only a sample whose grains break has it."""
-        return any(file.rule in OF_BREAKING for file in self._files.values())
+    def of_some_samples(self) -> bool:
+        """Whether only samples have it whose grains break or whose packings another code made."""
+        return any(file.rule in OF_SOME_SAMPLES for file in self._files.values())
 
     @property
     def reason(self) -> str | None:
