@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from pairs import Pair
 from scipy import stats
 
-from branchcrush.statistics.intervals import Interval, interval_of_refits
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import interval_of_refits
 
 CONFIDENCE = 0.95
 RESAMPLES = 2000

@@ -3,7 +3,7 @@
 from branchcrush.files.tables import read_json, write_text
 from branchcrush.records import recorded_job
 from branchcrush.study.measured_page import MeasuredPage, render_measured
-from branchcrush.study.pages import page_template
+from branchcrush.study.templates import page_template
 
 with recorded_job(snakemake):
     files, params = snakemake.input, snakemake.params

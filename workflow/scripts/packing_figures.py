@@ -9,7 +9,7 @@ from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
 from branchcrush.records import recorded_job
-from branchcrush.study.viewer_states import compression_grains, dumped_grains, packing_view
+from branchcrush.study.viewer_states import packing_view, saved_grains
 
 with recorded_job(snakemake):
     files, output, params = snakemake.input, snakemake.output, snakemake.params
@@ -31,15 +31,10 @@ with recorded_job(snakemake):
     networks.draw_chains(output.force_chains, dpi, compressed, contacts, path)
     networks.draw_rose(output.contact_rose, dpi, contacts, path)
 
-    # Every state has its grains in the dump, where that is kept.
     dump = Path(files.path[0]).with_name("particles.dump.gz")
-    grains = (
-        dumped_grains(read_dump(dump), path["state"])
-        if dump.exists()
-        else compression_grains(packing, compressed, path)
-    )
+    frames = read_dump(dump) if dump.exists() else ()
     view = packing_view(
-        grains,
+        saved_grains(frames, packing, compressed, path),
         path,
         contacts,
         read_table(files.walls[0]),

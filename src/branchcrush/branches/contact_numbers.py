@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import Interval, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import pooled_interval
 
 _CLASSES = 10
 
@@ -132,7 +133,7 @@ def assortativity(
     sums : list of ContactSums
         Of each seed.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -187,7 +188,7 @@ def contact_number_table(
     edges : array_like, shape (K+1,)
         Edges of the classes [m].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.branches.coordination import ISOSTATIC
 from branchcrush.packings.network import Network
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.resampling import pooled_interval
 
 # Of the jamming law, for equal and nearly equal frictionless spheres.
 JAMMING_PREFACTOR = 7.8
@@ -178,7 +178,7 @@ def jamming_law_fit(
     isostatic : list of array_like, optional
         `isostatic_number` of these states; 6 without it, which is right in a periodic cell.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -9,7 +9,7 @@ from branchcrush.energy.designs import LinearDesign, log_length, prepared
 from branchcrush.energy.predictors import BranchColumns
 from branchcrush.energy.state_fit import Curvature
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import Resampling
+from branchcrush.statistics.resampling import Resampling
 
 
 def curvature(

@@ -9,7 +9,8 @@ from branchcrush.energy.designs import log_length
 from branchcrush.energy.predictors import BranchColumns
 from branchcrush.errors import FitError
 from branchcrush.statistics.bins import binned_sums
-from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 # In words, as pages show them; the first is that of `predictors`.
 ESTIMATORS = {

@@ -36,7 +36,7 @@ def grain_energy_exponents(
     contact_exponent : float
         1 for linear contacts, 3/2 for Hertz.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

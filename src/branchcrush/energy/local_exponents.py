@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from branchcrush.energy.designs import LinearDesign, log_equality, log_length, prepared
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import Interval, Resampling
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import Resampling
 
 _RANGES = 4
 # Shares of the branches that are shorter than the first range, and than the end of the last.

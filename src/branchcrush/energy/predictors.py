@@ -27,7 +27,8 @@ from branchcrush.statistics.gamma_regression import (
     gamma_fit,
     parameter_intervals,
 )
-from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 # Of one seed: ln(r_min/R_max), ln(r_max/R_max) and energy [J] of each branch.
 BranchColumns = tuple[NDArray, NDArray, NDArray]

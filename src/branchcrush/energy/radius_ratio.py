@@ -9,7 +9,7 @@ from branchcrush.energy.designs import log_equality, log_length
 from branchcrush.energy.predictors import BranchColumns
 from branchcrush.energy.shielding import ROUNDING
 from branchcrush.energy.shielding_branches import RADIUS_RATIOS
-from branchcrush.statistics.intervals import Resampling, pooled_interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 
 def radius_ratio_table(

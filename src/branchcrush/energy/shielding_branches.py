@@ -12,8 +12,8 @@ from branchcrush.energy.shielding import LARGER, ROUNDING, claim_answer
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import pooled_interval
 from branchcrush.statistics.power_law import power_law_fit
+from branchcrush.statistics.resampling import pooled_interval
 
 # Edges of r_min/r_max.
 RADIUS_RATIOS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -71,7 +71,7 @@ def branch_shielding(
     seeds : list of tuple
         From `energy.predictors.branch_columns`, of each seed.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -11,7 +11,8 @@ from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_energy, neighbour_ratio
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import Interval, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import pooled_interval
 
 # Edges of a grain's radius over that of its neighbours.
 _NEIGHBOUR_RATIOS = np.array([0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.6, 2.5, 5.0, 10.0, np.inf])
@@ -49,7 +50,7 @@ def grain_shielding(
     contact_exponent : float
         1 for linear contacts, 3/2 for Hertz.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from branchcrush.errors import FitError
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import binned_sums
-from branchcrush.statistics.intervals import Interval, pooled_interval
+from branchcrush.statistics.intervals import Interval
 from branchcrush.statistics.power_law import binned_exponent
+from branchcrush.statistics.resampling import pooled_interval
 
 # Narrow enough to show the peak below the mean force.
 _BIN = 0.25
@@ -56,7 +57,7 @@ def force_distribution(
     forces : list of array_like
         Relative forces of each seed [-].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -103,7 +104,7 @@ def share_below_mean(
     forces : list of array_like
         Relative forces of each seed [-].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -148,7 +149,7 @@ def force_tail(
     threshold : float
         t [-].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -206,7 +207,7 @@ def force_by_length(
     edges : array_like, shape (n+1,)
         Bin edges [m].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -258,7 +259,7 @@ def force_network_result(
     edges : array_like, shape (n+1,)
         Bins of branch length [m].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -10,7 +10,7 @@ from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_stress_volume
 from branchcrush.packings.network import Network
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import pooled_interval
+from branchcrush.statistics.resampling import pooled_interval
 
 _POINTS = 100
 
@@ -34,7 +34,7 @@ def stress_by_radius(
     edges : array_like, shape (K+1,)
         Classes of radius [m].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -135,7 +135,7 @@ def stress_sharing(
     networks : list of Network
         One a seed.
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -184,7 +184,7 @@ def stress_sharing_result(
     classes : array_like, shape (K+1,)
         Classes of radius [m].
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

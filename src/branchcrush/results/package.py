@@ -48,6 +48,26 @@ class Package:
         """The version, and under "samples" the settings of each; empty before the end."""
         return self._content["provenance"]
 
+    def figure(self, of: str, name: str) -> Path:
+        """Return the picture of a figure, in PNG.
+
+        Parameters
+        ----------
+        of : str
+            The sample, or "findings" for those of all samples.
+        name : str
+
+        Returns
+        -------
+        Path
+
+        Examples
+        --------
+        >>> Package("results").figure("sand", "sharing").as_posix()
+        'results/figures/sand/sharing.png'
+        """
+        return self.folder / "figures" / of / f"{name}.png"
+
     def warn(self, text: str) -> None:
         """Warn of a file of another version, once.
 

@@ -29,7 +29,7 @@ from branchcrush.samples.ensemble import certified_loading, mean_path, named_sta
 from branchcrush.samples.rods import rods_along_path
 from branchcrush.samples.seed_contacts import SeedContacts, SeedReader, sample_contacts
 from branchcrush.statistics.bins import bin_edges
-from branchcrush.statistics.intervals import Resampling, pooled_interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 _TABLES = ("table", "predictions", "numbers", "pairs", "coordination")
 _RESULTS = ("statistics", "contact_numbers")
@@ -63,7 +63,7 @@ def branch_length_results(
     bins : int
         Of branch length.
     confidence, resamples
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -16,7 +16,7 @@ from branchcrush.branches.predictions import Prediction
 from branchcrush.samples.ensemble import named_states
 from branchcrush.samples.seed_contacts import SeedContacts
 from branchcrush.statistics.bins import bin_numbers
-from branchcrush.statistics.intervals import Resampling
+from branchcrush.statistics.resampling import Resampling
 
 
 def coordination_table(

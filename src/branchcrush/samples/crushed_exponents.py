@@ -11,7 +11,8 @@ from branchcrush.energy.predictors import PREDICTORS, branch_columns
 from branchcrush.errors import FitError
 from branchcrush.packings.network import Network, state_network
 from branchcrush.statistics.gamma_regression import gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 _UNKNOWN = Interval(np.nan, np.nan, np.nan)
 # Fewer branches than this in a state of all seeds bear no exponent.

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from branchcrush.packings.contact_laws import HertzContact
 from branchcrush.samples.crushed_path import control_law
 from branchcrush.samples.crushed_sizes import Crushable
-from branchcrush.statistics.intervals import Interval, Resampling, pooled_interval
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import Resampling, pooled_interval
 
 # Share of the mass in fragments from which on a packing yields, and states that a line needs.
 YIELDED, _STATES = 0.05, 4

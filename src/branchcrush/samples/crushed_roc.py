@@ -8,7 +8,7 @@ import pandas as pd
 from branchcrush.energy.grain_loads import PREDICTED, grain_loads, predicted_loads
 from branchcrush.energy.predictors import PREDICTORS
 from branchcrush.packings.network import state_network
-from branchcrush.statistics.intervals import Resampling, share_interval
+from branchcrush.statistics.resampling import Resampling, share_interval
 from branchcrush.statistics.roc import Places, places, roc_curve
 
 # What needs the strength of each grain, which an experiment does not know.

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import CensoredData, ecdf
 
-from branchcrush.statistics.intervals import Resampling, share_interval
+from branchcrush.statistics.resampling import Resampling, share_interval
 
 # Classes of contacts begin at these numbers; fewer than four are a rattler's.
 CONTACT_CLASSES = np.array([0, 4, 6, 8, 12, 20])

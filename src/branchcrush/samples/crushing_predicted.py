@@ -13,7 +13,7 @@ from branchcrush.gradings.distribution import Grading
 from branchcrush.gradings.mixtures import from_radii
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
 from branchcrush.samples.crushed_sizes import exponent_of_larger
-from branchcrush.statistics.intervals import interval_of_refits, seed_draws
+from branchcrush.statistics.resampling import interval_of_refits, seed_draws
 
 # What is predicted, in the order of the tables.
 QUANTITIES = (

@@ -20,8 +20,9 @@ from branchcrush.gradings.distribution import Grading
 from branchcrush.samples.ensemble import certified_loading, mean_path, named_states
 from branchcrush.samples.seed_branches import Branches, seed_branches
 from branchcrush.statistics.bins import bin_edges
-from branchcrush.statistics.intervals import Interval, Resampling
+from branchcrush.statistics.intervals import Interval
 from branchcrush.statistics.power_law import binned_exponent
+from branchcrush.statistics.resampling import Resampling
 
 
 def energy_split_results(

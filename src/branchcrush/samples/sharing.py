@@ -18,7 +18,7 @@ from branchcrush.packings.network import Network, state_networks
 from branchcrush.samples.ensemble import certified_loading, named_states
 from branchcrush.samples.seed_contacts import sample_classes
 from branchcrush.statistics.bins import bin_edges
-from branchcrush.statistics.intervals import Resampling
+from branchcrush.statistics.resampling import Resampling
 
 TABLES = (
     "shielding_branches",
@@ -61,7 +61,7 @@ def sharing_results(
     bins : int
         Of branch length.
     confidence, resamples
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------
@@ -118,7 +118,7 @@ def shared_in_state(
     contact_exponent : float
         1 for linear contacts, 3/2 for Hertz.
     confidence, resamples
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

@@ -12,9 +12,10 @@ the package comes from drawing whole seeds with replacement.
     The same regression for any design, fitted to single branches; the score and information of
     each seed are kept, so an interval costs little more than the fit.
 `intervals.Interval`
-    An estimate with its limits, which names its own columns; `pooled_interval` makes one of a
-    statistic of sums, `interval_of_refits` of refits. `Resampling` holds the random state of each
-    kind of result.
+    An estimate with its limits, which names its own columns.
+`resampling`
+    `pooled_interval` makes an interval of a statistic of sums, `interval_of_refits` of refits.
+    `Resampling` holds the random state of each kind of result.
 
 A new result takes a state of its own in `Resampling`, at the end; a new statistic is a function
 that `pooled_interval` is given.

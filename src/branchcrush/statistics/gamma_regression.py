@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
-from branchcrush.statistics.intervals import Interval, interval_of_refits, seed_draws
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import interval_of_refits, seed_draws
 
 # Of parameters and columns: eta of each branch and its derivatives. Of None: where to start.
 Design = Callable[..., Any]
@@ -233,7 +234,7 @@ def parameter_intervals(
     transform : callable, optional
         What is wanted of the parameters: takes shape (draws, p), returns (draws, q).
     confidence, resamples, rng
-        As for `statistics.intervals.pooled_interval`.
+        As for `statistics.resampling.pooled_interval`.
 
     Returns
     -------

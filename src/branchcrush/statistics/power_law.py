@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.errors import FitError
-from branchcrush.statistics.intervals import Interval, interval_of_refits, seed_draws
+from branchcrush.statistics.intervals import Interval
+from branchcrush.statistics.resampling import interval_of_refits, seed_draws
 
 _ITERATIONS = 200
 _CONVERGED = 1e-11
@@ -127,7 +128,7 @@ def binned_exponent(
         (1,\ \ln \bar l_b) = 0
 
     Branches of one packing share one force network and are not independent, so whole seeds are
-    drawn with replacement and refitted: `statistics.intervals.interval_of_refits`.
+    drawn with replacement and refitted: `statistics.resampling.interval_of_refits`.
 
     Parameters
     ----------

@@ -18,6 +18,8 @@
     The forms of the crushing model in words, and the one on the front along C.
 `pages`
     `render_report` and `render_findings` fill the templates of `workflow/report`.
+`templates`
+    `page_template`: how every page is rendered, and the filters that format its numbers.
 `measured_page`, `crushing_page`
     The same for what a laboratory measured, and for grains that break.
 `viewer`, `viewer_states`

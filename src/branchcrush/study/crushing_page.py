@@ -191,7 +191,7 @@ def render_crushing(template: Template, samples: Sequence[CrushingPage]) -> str:
     Parameters
     ----------
     template : Template
-        From `study.pages.page_template`.
+        From `study.templates.page_template`.
     samples : list of CrushingPage
 
     Returns

@@ -5,7 +5,8 @@ from typing import Any
 
 from branchcrush.branches.coordination_laws import jamming_law_fit
 from branchcrush.energy.state_fit import FittedPredictor, StateFit
-from branchcrush.statistics.intervals import LIMITS, Interval, Resampling, interval_names
+from branchcrush.statistics.intervals import LIMITS, Interval, interval_names
+from branchcrush.statistics.resampling import Resampling
 from branchcrush.study.exponents import at_distance, common_distance, crossing
 from branchcrush.study.results import SampleResults
 

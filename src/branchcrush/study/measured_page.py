@@ -39,7 +39,7 @@ def render_measured(template: Template, materials: Sequence[MeasuredPage]) -> st
     Parameters
     ----------
     template : Template
-        From `study.pages.page_template`.
+        From `study.templates.page_template`.
     materials : list of MeasuredPage
 
     Returns

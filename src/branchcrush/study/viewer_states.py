@@ -58,6 +58,45 @@ def packing_view(
     return {"header": packed.header, "data": packed.data}
 
 
+def saved_grains(
+    frames: Iterable[Mapping[str, NDArray]],
+    packing: tuple[NDArray, NDArray, float],
+    compressed: Table,
+    path: Table,
+) -> dict[str, NDArray]:
+    """Return a row for each grain in each state whose positions are kept.
+
+    Parameters
+    ----------
+    frames : iterable of mapping of columns
+        As for `dumped_grains`; none where no dump is kept.
+    packing, compressed, path
+        As for `compression_grains`, which every packing keeps.
+
+    Returns
+    -------
+    dict of ndarray
+        state, radius_m, x_m, y_m and z_m.
+
+    Raises
+    ------
+    ValueError
+        When there are more frames than states.
+
+    Examples
+    --------
+    >>> path = {"state": np.array([0, 1]), "leg": np.array(["loading", "loading"])}
+    >>> one = np.ones(1)
+    >>> frame = {"x": one, "y": one, "z": one, "radius": one}
+    >>> saved_grains([frame, frame], (np.zeros((1, 3)), one, 4.0), {}, path)["state"].tolist()
+    [0, 1]
+    """
+    kept = list(frames)
+    if kept:
+        return dumped_grains(kept, path["state"])
+    return compression_grains(packing, compressed, path)
+
+
 def compression_grains(
     packing: tuple[NDArray, NDArray, float], compressed: Table, path: Table
 ) -> dict[str, NDArray]:

@@ -12,7 +12,7 @@ from statsmodels.genmod.generalized_linear_model import GLM
 from branchcrush.energy.predictors import PREDICTORS, branch_columns
 from branchcrush.errors import FitError
 from branchcrush.statistics.gamma_regression import deviance, gamma_fit, parameter_intervals
-from branchcrush.statistics.intervals import interval_of_refits, seed_draws
+from branchcrush.statistics.resampling import interval_of_refits, seed_draws
 
 LINEAR = ["branch_length", "reduced_radius", "both_radii", "surface"]
 SIZES = PREDICTORS["grain_size"].design

@@ -11,7 +11,8 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.state_fit import FittedPredictor
 from branchcrush.samples.certificate import LIMITS
 from branchcrush.statistics.intervals import Interval
-from branchcrush.study.pages import SamplePage, page_template, render_report
+from branchcrush.study.pages import SamplePage, render_report
+from branchcrush.study.templates import page_template
 from tests.unit.study.pictures import write_picture
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "report.html.jinja"

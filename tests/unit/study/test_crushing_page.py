@@ -7,7 +7,7 @@ import pytest
 
 from branchcrush.files.tables import read_json, write_json
 from branchcrush.study.crushing_page import CrushingPage, form_rows, leads, render_crushing
-from branchcrush.study.pages import page_template
+from branchcrush.study.templates import page_template
 from tests.unit.samples.test_crushed import results
 from tests.unit.study.pictures import write_picture
 

@@ -10,7 +10,8 @@ import pytest
 
 from branchcrush.statistics.intervals import Interval
 from branchcrush.study.findings import finding_row
-from branchcrush.study.pages import page_template, render_findings
+from branchcrush.study.pages import render_findings
+from branchcrush.study.templates import page_template
 from tests.unit.study.pictures import write_picture
 
 TEMPLATE = Path(__file__).parents[3] / "workflow" / "report" / "together.html.jinja"

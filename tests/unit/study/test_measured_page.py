@@ -8,7 +8,7 @@ import pytest
 from branchcrush.gradings.forms import uniform
 from branchcrush.samples.measured import breakage_results
 from branchcrush.study.measured_page import MeasuredPage, render_measured
-from branchcrush.study.pages import page_template
+from branchcrush.study.templates import page_template
 from tests.unit.study.pictures import write_picture
 
 ROOT = Path(__file__).parents[3]

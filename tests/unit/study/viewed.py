@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot as plt
 
-from branchcrush.study.pages import page_environment, page_parts
+from branchcrush.study.templates import page_environment, page_parts
 from branchcrush.study.viewer import ViewerState
 
 REPORT = Path(__file__).parents[3] / "workflow/report"
