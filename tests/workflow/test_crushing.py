@@ -15,6 +15,7 @@ from matplotlib import image
 
 from branchcrush.files.tables import read_json, read_table
 from tests.pages import said
+from tests.pictures import is_whole
 
 SEED = 3
 # Of the whole sample, and of the crushing of its seed; what they hold the dictionary's tests hold.
@@ -117,6 +118,7 @@ def test_the_page_shows_every_figure_and_no_figure_is_blank(breaking):
     assert not re.search(r"nan\b|None", said(page))
     for figure in FIGURES:
         path = breaking.folder / f"results/figures/breaking/{figure}.png"
+        assert is_whole(path), figure
         pixels = image.imread(path)[..., :3].reshape(-1, 3)
         assert 0.01 < (pixels.min(axis=-1) < 0.9).mean() < 0.9, figure
         assert len(np.unique(pixels, axis=0)) > 20, figure

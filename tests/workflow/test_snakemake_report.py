@@ -5,6 +5,8 @@ import json
 
 import pytest
 
+from tests.pictures import is_whole
+
 
 @pytest.fixture(scope="module")
 def results(finished, tmp_path_factory):
@@ -30,6 +32,7 @@ def test_every_figure_is_in_the_report_with_words_of_its_own(finished, results):
         assert base64.b64decode(entry["data_uri"].partition(",")[2]) == figure.read_bytes()
         assert entry["labels"]["figure"] == figure.stem.replace("_", " ")
         captions.add(entry["caption"])
+        assert is_whole(figure), figure
     assert len(captions) == len(figures)
     assert not [caption for caption in captions if len(caption) < 40 or "snakemake" in caption]
 

@@ -87,7 +87,7 @@ def plot_branch_energy(
     )
     ax.add_collection(lines)
     ax.figure.colorbar(
-        lines, ax=ax, label=r"energy of the branch over the mean [-]", extend="both", shrink=0.8
+        lines, ax=ax, label="energy of the branch\nover the mean [-]", extend="both", shrink=0.8
     )
     return _cell(ax, edge)
 

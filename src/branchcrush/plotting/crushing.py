@@ -19,10 +19,10 @@ from branchcrush.plotting.style import FAINT, FORMS, axes
 CRUSHING = "crushing parameter C [-]"
 # What is held equal when energies before and after crushing are compared.
 COMPARED = {
-    "energy_at_equal_strain": "at equal elastic strain",
-    "energy_at_equal_energy_over_pressure": "at equal energy over pressure",
-    "energy_at_equal_stress": "at equal stress",
-    "energy_at_equal_solid_fraction": "at equal solid fraction",
+    "energy_at_equal_strain": "at equal\nelastic strain",
+    "energy_at_equal_energy_over_pressure": "at equal energy\nover pressure",
+    "energy_at_equal_stress": "at equal\nstress",
+    "energy_at_equal_solid_fraction": "at equal\nsolid fraction",
 }
 # Energies beyond these shares of those before crushing are off the axis: the paper's ends at 0.
 _RATIOS = (0.01, 100.0)
@@ -116,7 +116,7 @@ def plot_jamming(forms: Table, model: Mapping, ax: Axes | None = None) -> Axes:
         ax.axhline(stays[0], color=FAINT, lw=0.8)
         below = {"xytext": (0, -3), "ha": "right", "va": "top"}
         ax.annotate("all other forms", (0.98, stays[0]), **below, **_OFFSET)
-    ax.set(xlabel=CRUSHING, ylabel=r"solid fraction at jamming $\phi_J$ [-]", xlim=(0, 1))
+    ax.set(xlabel=CRUSHING, ylabel="solid fraction\nat jamming $\\phi_J$ [-]", xlim=(0, 1))
     if whole:
         margin = max(0.2 * (max(whole) - min(whole)), 0.01)
         ax.set_ylim(min(whole) - margin, max(whole) + margin)

@@ -32,7 +32,7 @@ from branchcrush.plotting.form_words import (
 from branchcrush.plotting.style import SIZE, drawn, figure
 
 Path = str | os.PathLike
-_CHARACTERS = 76  # of a line of words under a figure
+_CHARACTERS = 70  # of a line of words under a figure
 
 
 def draw_crushing_model(
@@ -92,12 +92,13 @@ def draw_crushing_energy(path: Path, dpi: int, forms: Table, model: Mapping) -> 
         if why is None:
             _one_axis(panels)
             panels[0, 0].figure.supylabel("elastic energy over that at C = 0 [-]", fontsize=8)
-            for ax in panels[1]:
-                ax.set_xlabel(crushing.CRUSHING)
+            for ax in panels[1]:  # of half a column's width
+                ax.set_xlabel(crushing.CRUSHING.replace(" ", "\n", 1))
             shown = set(forms["form"])
             handles = form_handles(model, shown, snaps=False)
             notes = [*form_notes(model, shown), *warnings(model)]
-            of = dict(zip(crushing.COMPARED.values(), panels.flat, strict=True))
+            names = (title.replace("\n", " ") for title in crushing.COMPARED.values())
+            of = dict(zip(names, panels.flat, strict=True))
             # The axis is that of these two, as far as it goes.
             notes += outside(of, {model["form"], "paper"})
             _explain(panels[0, 0].figure, handles, notes)

@@ -33,6 +33,8 @@ FORMS = {
 }
 # One column of a journal page, 85 mm wide; a figure of two columns is 170 mm [inch].
 SIZE = (85.0 / 25.4, 66.0 / 25.4)
+# Of a letter of 7 points, on average [points].
+_LETTER = 4.0
 # Solid fractions are drawn on an axis that is at least so wide [-].
 LEAST_SPREAD = 0.05
 
@@ -213,7 +215,8 @@ def drawn(plot: Callable[..., Axes], why: str | None, *data: Any, ax: Axes) -> A
 
 def reason(ax: Axes, text: str) -> Axes:
     """Write on an Axes why there is nothing to draw, and return it."""
-    lines = textwrap.fill(f"no data: {text}", 48)
+    width = 72.0 * ax.get_position().width * ax.figure.get_figwidth()
+    lines = textwrap.fill(f"no data: {text}", max(int(width / _LETTER), 12))
     ax.text(0.5, 0.5, lines, ha="center", va="center", transform=ax.transAxes, fontsize=7)
     ax.set_axis_off()
     return ax

@@ -5,6 +5,8 @@ import pytest
 from matplotlib import image
 from matplotlib import pyplot as plt
 
+from tests.pictures import is_whole, overlapping_letters
+
 
 class Reading:
     """What an Axes shows, as numbers."""
@@ -51,8 +53,10 @@ def drawn(tmp_path):
 
     def draw(function, *data):
         path = tmp_path / "folder" / "figure.png"
-        figure = function(path, 50, *data)
+        figure = function(path, 100, *data)
         assert (image.imread(path)[..., :3].min(axis=-1) < 0.9).any()
+        assert is_whole(path)
+        assert overlapping_letters(figure) == []
         for ax in figure.axes:
             # What a panel says is tested; that it has a letter is, in test_style.
             for text in [text for text in ax.texts if text.get_gid() == "letter"]:

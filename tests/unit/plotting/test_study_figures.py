@@ -20,7 +20,7 @@ NOTHING = pd.DataFrame({"reason": ["no load"]})
 
 
 def texts(axes):
-    return [text.get_text() for ax in axes for text in ax.texts]
+    return [text.get_text().replace("\n", " ") for ax in axes for text in ax.texts]
 
 
 def path(above=(0.05, 0.1)):
