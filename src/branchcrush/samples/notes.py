@@ -152,7 +152,7 @@ def convergence_notes(table: pd.DataFrame) -> list[Note]:
             check="convergence",
             value=abs(float(row["difference"])) + float(row["could_see"]),
             limit=float(row["tolerance"]),
-            finding=f"convergence not decided: {words}",
+            finding="convergence not decided: " + words.replace(": not decided,", "", 1),
             effect="as said, on this sample; n is not judged by it",
             advice="raise refined_seeds, or loading.quality",
         )

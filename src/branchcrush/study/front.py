@@ -107,9 +107,11 @@ def _verdict(certificate: Mapping[str, Any]) -> str:
         return f"Certified: {whole} at rest at the end, with the account of energy closed."
     first = notes[0]
     more = f" {len(notes) - 1} more below." if len(notes) > 1 else ""
+    # What is in brackets stands in the section of quality.
+    finding = _lower(first["finding"].partition(" (")[0])
     return (
         f"Certified with {'a note' if len(notes) == 1 else f'{len(notes)} notes'}: {whole} at "
-        f"rest, but {_lower(first['finding'])}. What to do: {first['advice']}.{more}"
+        f"rest, but {finding}. What to do: {first['advice']}.{more}"
     )
 
 

@@ -144,7 +144,7 @@ def test_what_is_not_converged_takes_the_certificate_away(quantity):
 def test_stress_that_is_not_decided_is_a_note():
     found = certificate_of([path_of()], converged(mean_stress_Pa="not decided"))
     assert (found["verdict"], found["reasons"]) == ("certified with notes", [])
-    assert findings(found)[0].startswith("convergence not decided: mean stress: not decided")
+    assert findings(found)[0].startswith("convergence not decided: mean stress ")
 
 
 def test_exponent_that_is_not_decided_is_told_and_no_note():
