@@ -2,6 +2,7 @@
 
 import shutil
 
+import numpy as np
 import pytest
 
 from branchcrush.files.dictionary import result_files
@@ -21,7 +22,11 @@ samples:
     contact: {law: linear, normal_stiffness: 1.0e6}
 figures: {dpi: 60}
 """
-TARGETS = ["results/others/certificate.json", "results/others/sharing.json"]
+TARGETS = [
+    "results/others/certificate.json",
+    "results/others/sharing.json",
+    "results/figures/others/view.json",
+]
 
 
 def copied(study):
@@ -52,6 +57,15 @@ def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     assert grading["target"]["D_max_m"] == pytest.approx(2.0 * radii.max())
     shared = read_json(results / "sharing.json")["end"]
     assert shared["stress"] and shared["forces"] and "reason" not in shared
+    # Both of its frames are drawn, in the cell of the files.
+    view = read_json(study.folder / "results" / "figures" / "others" / "view.json")["header"]
+    assert [row["label"] for row in view["states"]] == ["first frame", "densest frame"]
+    row = view["states"][-1]
+    assert row["grains"] == 200
+    assert row["contacts"] == read_json(results / "seed_1" / "reading.json")["contacts"] > 200
+    assert view["periodic"] == [True, True, True]
+    edge = float((ROOT / "tests/data/readers/cross_check/edge.txt").read_text())
+    np.testing.assert_allclose(row["cell_m"], edge * np.eye(3), rtol=1e-5)
     for path in (results / "seed_1").iterdir():
         name = path.relative_to(study.folder / "results").as_posix()
         assert any(file.matches(name) for file in result_files()), name

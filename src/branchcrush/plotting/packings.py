@@ -4,13 +4,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from branchcrush.packings.cells import CELL_EDGES, cell_corners, cell_radius
 from branchcrush.plotting.style import axes
 
 # The view: turned about the vertical, then tilted, as a draughtsman's box is drawn.
 _TURN, _TILT = np.radians(35.0), np.radians(22.0)
 _LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])
-_CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2.0
-_EDGES = [(a, b) for a in range(8) for b in range(a) if np.abs(_CUBE[a] - _CUBE[b]).sum() == 1]
 
 
 def sphere_image(
@@ -73,7 +72,7 @@ def sphere_image(
 def plot_packing(
     positions: NDArray,
     radii: NDArray,
-    edge: float,
+    cell: NDArray,
     *,
     extent: float | None = None,
     pixels: int = 900,
@@ -89,10 +88,10 @@ def plot_packing(
         About the centre of the cell [m].
     radii : ndarray, shape (N,)
         [m]
-    edge : float
-        Edge of the cell [m].
+    cell : ndarray, shape (3, 3)
+        Vectors of the edges of the cell, a row each [m].
     extent : float, optional
-        Edge of the cell that would fill the picture, to draw two states to one scale [m].
+        Radius about the largest cell, to draw two states to one scale; this one's without [m].
     pixels : int
         Width of the picture.
     radius_max : float, optional
@@ -107,21 +106,21 @@ def plot_packing(
 
     Examples
     --------
-    >>> ax = plot_packing(np.zeros((1, 3)), np.ones(1), 2.0, pixels=50)
+    >>> ax = plot_packing(np.zeros((1, 3)), np.ones(1), 2.0 * np.eye(3), pixels=50)
     """
     from matplotlib import colormaps
 
     ax = axes(ax)
     view = _rotation()
-    scale = 0.86 * (extent or edge)
+    scale = extent or cell_radius(cell)
     if colours is None:
         colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
     image = sphere_image(positions @ view.T, radii, scale, pixels, colours)
-    corners = _CUBE * edge @ view.T
+    corners = cell_corners(cell) @ view.T
     ends = (-scale * 1e3, scale * 1e3)
     # Of the cell's edges those that meet at the far corner are behind the grains.
     far = np.argmax(corners[:, 1])
-    for a, b in _EDGES:
+    for a, b in CELL_EDGES:
         behind = far in (a, b)
         ax.plot(
             corners[[a, b], 0] * 1e3,

@@ -14,6 +14,8 @@ TURN, TILT = 0.61, 0.38
 C, S, CT, ST = np.cos(TURN), np.sin(TURN), np.cos(TILT), np.sin(TILT)
 AXES = np.array([[C, S, 0], [-ST * S, ST * C, CT], [CT * S, -CT * C, ST]])
 RIGHT, UP, TOWARD = AXES
+# Half of what is seen of the height [mm]: the radius about the cell.
+REACH = EDGE * 1e3 * np.sqrt(3) / 2
 CHAIN = np.array([0x8F, 0x1D, 0x14]) / 255
 GREY, YELLOW, RED = np.array([[201, 206, 214], [232, 176, 74], [193, 68, 14]]) / 255
 
@@ -43,11 +45,11 @@ def driver():
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
     many = np.stack(np.meshgrid(*[np.linspace(-4, 4, 5)] * 3), axis=-1).reshape(-1, 3)
-    walled = state(many, np.full(125, 0.9), walls=[(0, 4, 1.0)])
+    walled = state(many, np.full(125, 0.9), walls=[(0, 0, 0, -1, 1.0)])
     views = {
-        "view": viewer_data(STATES, periodic=True, saved_states=3),
-        "walled": viewer_data([walled], periodic=False),
-        "large": viewer_data([walled], periodic=False, limit_bytes=100),
+        "view": viewer_data(STATES, periodic=[True] * 3, saved_states=3),
+        "walled": viewer_data([walled], periodic=[False] * 3),
+        "large": viewer_data([walled], periodic=[False] * 3, limit_bytes=100),
     }
     return write_page(tmp_path_factory.mktemp("viewed"), views)
 
@@ -75,7 +77,7 @@ def put(driver, name, value, figure="view"):
 def per_mm(image):
     """Return the pixels of a millimetre in the first view."""
     # The rim that the picture goes without is part of what the view fills.
-    return (image.shape[0] + 6) / 2 / (0.8 * EDGE * 1e3)
+    return (image.shape[0] + 6) / 2 / REACH
 
 
 def at(image, place):

@@ -64,6 +64,7 @@
     function show() {
       shown = D.state(header, numbers, Number(slider.value));
       painter.setGrains(shown);
+      painter.setBox(D.box(shown.row.cell_m));
       const chains = D.chains(header, shown);
       const largest = chains.force.reduce((a, b) => Math.max(a, b), 0);
       shown.largest = largest * (header.scales.force ? header.scales.force[1] : 0);
@@ -128,9 +129,9 @@
       if (!width || !height) return;
       const size = [Math.round(width * by), Math.round(height * by)];
       if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
-      const edge = Math.max(shown.row.edge_m, header.states.at(-1).edge_m);
+      const cell = shown.row.cell_m, round = D.reach(cell);
       // Metres to half the height of the view.
-      const reach = 0.8 * edge / camera.zoom / Math.min(1, width / height);
+      const reach = Math.max(round, D.reach(header.states.at(-1).cell_m)) / camera.zoom / Math.min(1, width / height);
       const turn = turned(camera), style = getComputedStyle(figure);
       const n = axis.value === "" ? null : [0, 1, 2].map((k) => turn[3 * Number(axis.value) + k]);
       // Of the two sides the one toward the eye is taken away.
@@ -138,9 +139,9 @@
       const started = performance.now();
       painter.draw({
         turn, scale: [height / width / reach, 1 / reach], deep: 0.35 / shown.row.span_m,
-        cut: n ? [...n.map((v) => side * v), side * Number(cut.value) * shown.row.edge_m] : [0, 0, 0, 1],
+        cut: n ? [...n.map((v) => side * v), side * Number(cut.value) * D.width(cell, Number(axis.value))] : [0, 0, 0, 1],
         grains: control("grains").checked, chains: control("chains").checked,
-        widest: 0.012 * shown.row.edge_m, pixel: 2 * reach / size[1],
+        widest: 0.014 * round, pixel: 2 * reach / size[1],
         line: colour(style, "--soft"), chain: colour(style, "--chain"),
       });
       painter.finish();
