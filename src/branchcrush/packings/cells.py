@@ -44,16 +44,16 @@ def path_cells(path: Table, reading: Mapping[str, Any] | None = None) -> NDArray
 
 
 def cell_corners(cell: ArrayLike) -> NDArray:
-    """Return the corners of a cell, of which `CELL_EDGES` names those that an edge joins.
+    """Return the corners of cells, of which `CELL_EDGES` names those that an edge joins.
 
     Parameters
     ----------
-    cell : array_like, shape (3, 3)
-        Vectors of its edges, a row each [m].
+    cell : array_like, shape (..., 3, 3)
+        Vectors of the edges of each, a row an edge [m].
 
     Returns
     -------
-    ndarray, shape (8, 3)
+    ndarray, shape (..., 8, 3)
         About its middle [m].
 
     Examples
@@ -62,24 +62,3 @@ def cell_corners(cell: ArrayLike) -> NDArray:
     [-1.5, -1.0, -2.0]
     """
     return _CORNERS @ np.asarray(cell, dtype=float)
-
-
-def cell_radius(cell: ArrayLike) -> float:
-    """Return the radius of the sphere about a cell, which it stays in however it is turned.
-
-    Parameters
-    ----------
-    cell : array_like, shape (3, 3)
-        Vectors of its edges, a row each [m].
-
-    Returns
-    -------
-    float
-        Half of its longest diagonal [m].
-
-    Examples
-    --------
-    >>> cell_radius([[2, 0, 0], [0, 4, 0], [0, 0, 4]])
-    3.0
-    """
-    return float(np.linalg.norm(cell_corners(cell), axis=1).max())

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from branchcrush.files.tables import Table
-from branchcrush.packings.cells import cell_radius, path_cells
+from branchcrush.packings.cells import path_cells
 from branchcrush.plotting import crushed, crushed_forms
 from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import drawn, figure, grid, reason
@@ -141,7 +141,6 @@ def draw_packing(
     with figure(path, dpi, *grid(1, len(chosen)), squeeze=False) as panels:
         rows = loading.set_index("state")
         cells = dict(zip(rows.index, path_cells(loading), strict=True))
-        extent = cell_radius(cells[chosen[0]])
         for ax, state in zip(panels[0], chosen, strict=True):
             here = grains[grains["state"] == state]
             if not set(_POSITION) <= set(grains.columns):
@@ -152,7 +151,7 @@ def draw_packing(
                 here[_POSITION].to_numpy(),
                 here["radius_m"].to_numpy(),
                 cells[state],
-                extent=extent,
+                extent=cells[chosen[0]],
                 colours=colours(generation)[:, :3],
                 ax=ax,
             )

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from branchcrush.files.tables import Table
-from branchcrush.packings.cells import cell_radius, path_cells
+from branchcrush.packings.cells import path_cells
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import certificate, gradings
 from branchcrush.plotting.packings import plot_packing
@@ -93,8 +93,8 @@ def draw_packing(
     """
     positions, radii, _ = packing
     end, cells = end_of_loading(loading_path), path_cells(loading_path, reading)
-    pair = cells[0], cells[end.name]
-    scale = {"extent": max(map(cell_radius, pair)), "radius_max": radius_max}
+    pair = cells[[0, end.name]]
+    scale = {"extent": pair, "radius_max": radius_max}
     with figure(path, dpi, *grid(1, 2)) as (before, after):
         plot_packing(positions, radii, pair[0], **scale, ax=before)
         positions = compressed[["x_m", "y_m", "z_m"]].to_numpy()

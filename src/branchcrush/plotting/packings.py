@@ -4,11 +4,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from branchcrush.packings.cells import CELL_EDGES, cell_corners, cell_radius
+from branchcrush.packings.cells import CELL_EDGES, cell_corners
 from branchcrush.plotting.style import axes
 
 # The view: turned about the vertical, then tilted, as a draughtsman's box is drawn.
 _TURN, _TILT = np.radians(35.0), np.radians(22.0)
+# Half the width of the picture over that of what is seen of the cell: grains stand out of it.
+_RIM = 1.19
 _LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])
 
 
@@ -74,7 +76,7 @@ def plot_packing(
     radii: NDArray,
     cell: NDArray,
     *,
-    extent: float | None = None,
+    extent: NDArray | None = None,
     pixels: int = 900,
     radius_max: float | None = None,
     colours: NDArray | None = None,
@@ -90,8 +92,8 @@ def plot_packing(
         [m]
     cell : ndarray, shape (3, 3)
         Vectors of the edges of the cell, a row each [m].
-    extent : float, optional
-        Radius about the largest cell, to draw two states to one scale; this one's without [m].
+    extent : ndarray, shape (3, 3) or (C, 3, 3), optional
+        Cells that the picture is to hold, to draw states to one scale; its own without [m].
     pixels : int
         Width of the picture.
     radius_max : float, optional
@@ -112,7 +114,7 @@ def plot_packing(
 
     ax = axes(ax)
     view = _rotation()
-    scale = extent or cell_radius(cell)
+    scale = _RIM * np.abs(cell_corners(cell if extent is None else extent) @ view.T)[..., ::2].max()
     if colours is None:
         colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
     image = sphere_image(positions @ view.T, radii, scale, pixels, colours)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from branchcrush.packings.cells import cell_radius
 from branchcrush.plotting.packings import plot_packing, sphere_image
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -60,10 +59,10 @@ def test_larger_grains_are_darker():
 
 def test_cell_is_drawn_to_the_scale_of_the_larger_one():
     whole = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 2e-3 * CUBE, pixels=20)
-    extent = cell_radius(2e-3 * CUBE)
-    part = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 1e-3 * CUBE, extent=extent, pixels=20)
-    # The sphere about the cube, in mm.
-    assert_allclose(whole.get_xlim(), (-np.sqrt(3), np.sqrt(3)))
+    both = np.array([2e-3 * CUBE, 1e-3 * CUBE])
+    part = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 1e-3 * CUBE, extent=both, pixels=20)
+    # 0.86 of the edge of a cube, in mm.
+    assert_allclose(whole.get_xlim(), (-1.72, 1.72), rtol=5e-3)
     assert_allclose(part.get_xlim(), whole.get_xlim())
     edges, halves = ([line.get_xdata() for line in ax.lines[:12]] for ax in (whole, part))
     assert_allclose(np.array(halves), np.array(edges) / 2.0)

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from branchcrush.packings.cells import CELL_EDGES, cell_corners, cell_radius
+from branchcrush.packings.cells import CELL_EDGES, cell_corners
 from branchcrush.readers.cells import Cell
 from branchcrush.study.viewer import viewer_data
 from tests.unit.study.browser import at_rest, browser, open_page, picture
-from tests.unit.study.test_viewer_page import AXES, CHAIN, RIGHT, UP
-from tests.unit.study.viewed import CUBE, state, write_page
+from tests.unit.study.test_viewer_page import AXES, CHAIN, RIGHT, UP, half_height
+from tests.unit.study.viewed import state, write_page
 
 # Vectors of the edges [mm]: a cuboid, tilted cells as LAMMPS has them, one with more than half an
 # edge of tilt, and one that is turned in space.
@@ -64,7 +64,7 @@ def only_chains(driver, figure="view"):
 def seen(image, place, cell):
     """Return the pixels about where a place is seen [mm]."""
     # The rim that the picture goes without is part of what the view fills.
-    place = (image.shape[0] + 6) / 2 / cell_radius(cell) * np.asarray(place)
+    place = (image.shape[0] + 6) / 2 / half_height(cell, image) * np.asarray(place)
     row, column = image.shape[0] / 2 - UP @ place, image.shape[1] / 2 + RIGHT @ place
     return image[int(row) - 2 : int(row) + 3, int(column) - 2 : int(column) + 3].reshape(-1, 3)
 
@@ -136,14 +136,31 @@ def test_lines_are_the_nearest_images_that_readers_find(opened, name):
         expected += [[places[grain], places[grain] + way] for grain, way in start]
     np.testing.assert_allclose(lines, expected, atol=1e-3)
     if all(periodic):
-        assert np.linalg.norm(np.diff(lines, axis=1), axis=-1).max() < cell_radius(vectors)
+        longest = np.linalg.norm(2 * cell_corners(vectors), axis=1).max()
+        assert np.linalg.norm(np.diff(lines, axis=1), axis=-1).max() < longest / 2
 
 
 def test_sizes_of_cells_are_those_of_their_corners(driver, page):
     open_page(driver, page)
     told = driver.execute_script(
-        "return [branchcrushData.reach(arguments[0]), branchcrushData.width(arguments[1], 0)]",
-        CUBE.tolist(),
+        "const D = branchcrushData, [cell] = arguments;"
+        "return [D.size(cell), D.width(cell, [1, 0, 0])]",
         CELLS["tilted"].tolist(),
     )
-    assert told == pytest.approx([cell_radius(CUBE), 9 + 4 + 3])
+    assert told == pytest.approx([np.cbrt(9 * 8 * 10), 9 + 4 + 3])
+
+
+def test_the_whole_of_a_long_cell_is_in_the_first_view(driver, page, tmp_path):
+    for name, cell in {"high": np.diag([3.0, 3, 30]), "broad": np.diag([30.0, 3, 3])}.items():
+        view = {
+            "view": viewer_data([state([[0, 0, 0]], [0.1], cell=1e-3 * cell)], periodic=[True] * 3)
+        }
+        (tmp_path / name).mkdir()
+        for width in (1300, 420):
+            open_page(driver, write_page(tmp_path / name, view), width=width)
+            driver.execute_script("document.querySelector('.viewer-scale').hidden = true")
+            image = picture(driver)
+            drawn = np.argwhere(np.abs(image - image[2, 2]).max(axis=-1) > 0.15)
+            ends = np.ptp(drawn, axis=0) / image.shape[:2]
+            # But for a rim of a tenth, whichever way the cell is long.
+            assert ends.max() == pytest.approx(1 / 1.1, abs=0.02), (name, width)

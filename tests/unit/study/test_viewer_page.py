@@ -7,15 +7,13 @@ from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from branchcrush.study.viewer import viewer_data
 from tests.unit.study.browser import at_rest, browser, difference, open_page, picture, requests
-from tests.unit.study.viewed import EDGE, state, write_page
+from tests.unit.study.viewed import CUBE, state, write_page
 
 # The view that a page begins with.
 TURN, TILT = 0.61, 0.38
 C, S, CT, ST = np.cos(TURN), np.sin(TURN), np.cos(TILT), np.sin(TILT)
 AXES = np.array([[C, S, 0], [-ST * S, ST * C, CT], [CT * S, -CT * C, ST]])
 RIGHT, UP, TOWARD = AXES
-# Half of what is seen of the height [mm]: the radius about the cell.
-REACH = EDGE * 1e3 * np.sqrt(3) / 2
 CHAIN = np.array([0x8F, 0x1D, 0x14]) / 255
 GREY, YELLOW, RED = np.array([[201, 206, 214], [232, 176, 74], [193, 68, 14]]) / 255
 
@@ -74,10 +72,17 @@ def put(driver, name, value, figure="view"):
     at_rest(driver, figure)
 
 
+def half_height(cell, image):
+    """Return half of what the view shows, from below to above: the cell and a rim of a tenth."""
+    right, up, _ = 0.55 * np.abs(AXES @ np.transpose(cell)).sum(axis=1)
+    height, width = (size + 6 for size in image.shape[:2])
+    return max(up, right * height / width)
+
+
 def per_mm(image):
     """Return the pixels of a millimetre in the first view."""
     # The rim that the picture goes without is part of what the view fills.
-    return (image.shape[0] + 6) / 2 / REACH
+    return (image.shape[0] + 6) / 2 / half_height(CUBE * 1e3, image)
 
 
 def at(image, place):

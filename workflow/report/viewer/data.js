@@ -77,21 +77,22 @@ const branchcrushData = (() => {
     return Float32Array.from(ends);
   }
 
-  // Radius of the sphere about a cell: it stays in it however it is turned.
-  function reach(cell) {
-    return Math.max(...SHIFTS.map((shift) => Math.hypot(...along(cell, shift)) / 2));
+  const volume = (cell) => dot(cell[0], cross(cell[1], cell[2]));
+
+  // Edge of the cube of a cell's volume.
+  function size(cell) {
+    return Math.cbrt(Math.abs(volume(cell)));
   }
 
-  // Width of a cell along x, y or z.
-  function width(cell, axis) {
-    return cell.reduce((sum, vector) => sum + Math.abs(vector[axis]), 0);
+  // Width of a cell along a direction of unit length.
+  function width(cell, direction) {
+    return cell.reduce((sum, vector) => sum + Math.abs(dot(vector, direction)), 0);
   }
 
   // Returns the shortest image of a vector in a cell, and whether it is another one.
   function nearest(cell, periodic) {
-    const volume = dot(cell[0], cross(cell[1], cell[2]));
     const reciprocal = [0, 1, 2].map((k) =>
-      cross(cell[(k + 1) % 3], cell[(k + 2) % 3]).map((v) => v / volume));
+      cross(cell[(k + 1) % 3], cell[(k + 2) % 3]).map((v) => v / volume(cell)));
     // Nothing is shorter than half of the least distance of two faces. Beyond it the image of rounded
     // shares need not be the shortest, in a cell that is much tilted.
     const sure = Math.min(...reciprocal.map((r) => 1 / dot(r, r))) / 4;
@@ -187,5 +188,5 @@ const branchcrushData = (() => {
     return `${(value / 10 ** power).toPrecision(2)}·10${power < 0 ? "⁻" : ""}${up}`;
   }
 
-  return { words, state, box, reach, width, chains, colours, bar, number, MODES, GENERATIONS, GENERATION_WORDS, NONE };
+  return { words, state, box, size, width, chains, colours, bar, number, MODES, GENERATIONS, GENERATION_WORDS, NONE };
 })();
