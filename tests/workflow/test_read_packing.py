@@ -22,6 +22,8 @@ samples:
     contact: {law: linear, normal_stiffness: 1.0e6}
 figures: {dpi: 60}
 """
+# Of the edge of the cube in the files [m].
+HALF = "0.00394359"
 TARGETS = [
     "results/others/certificate.json",
     "results/others/sharing.json",
@@ -36,8 +38,20 @@ def copied(study):
     study.configure(CONFIG)
 
 
+def tilted(study):
+    """Describe the same lattice by a cell that is tilted by its edge: nothing else may change."""
+    grains = study.folder / "grains.dump"
+    cube = "ITEM: BOX BOUNDS pp pp pp\n" + 3 * f"-{HALF} {HALF}\n"
+    text = grains.read_text()
+    assert text.count(cube) == 2
+    bounds = [f"-{HALF} {3 * float(HALF)} {2 * float(HALF)}", *2 * [f"-{HALF} {HALF} 0"]]
+    tilt = "\n".join(["ITEM: BOX BOUNDS xy xz yz pp pp pp", *bounds, ""])
+    grains.write_text(text.replace(cube, tilt))
+
+
 def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     copied(study)
+    tilted(study)
     run = study.snakemake(*TARGETS)
     assert run.returncode == 0, run.stdout + run.stderr
     results = study.folder / "results" / "others"
@@ -64,8 +78,8 @@ def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     assert row["grains"] == 200
     assert row["contacts"] == read_json(results / "seed_1" / "reading.json")["contacts"] > 200
     assert view["periodic"] == [True, True, True]
-    edge = float((ROOT / "tests/data/readers/cross_check/edge.txt").read_text())
-    np.testing.assert_allclose(row["cell_m"], edge * np.eye(3), rtol=1e-5)
+    cell = 2 * float(HALF) * np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1]])
+    np.testing.assert_allclose(row["cell_m"], cell, atol=1e-12)
     for path in (results / "seed_1").iterdir():
         name = path.relative_to(study.folder / "results").as_posix()
         assert any(file.matches(name) for file in result_files()), name

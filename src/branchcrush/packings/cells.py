@@ -39,7 +39,7 @@ def path_cells(path: Table, reading: Mapping[str, Any] | None = None) -> NDArray
     [[[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]]
     """
     if reading is not None:
-        return np.asarray(reading["cells"], dtype=float)
+        return np.asarray(reading["cells_m"], dtype=float)
     return np.cbrt(np.asarray(path["volume_m3"], dtype=float))[:, None, None] * np.eye(3)
 
 

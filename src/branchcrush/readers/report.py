@@ -30,7 +30,7 @@ def reading_report(
     Returns
     -------
     dict
-        files, states, steps, cells, periodic, grains, contacts, wall_contacts, digits,
+        files, states, steps, cells_m, periodic, grains, contacts, wall_contacts, digits,
         overlap_error, force_by_law, tangential_share and notes. Numbers are of the last frame.
 
     Examples
@@ -61,7 +61,7 @@ def reading_report(
         "files": list(files),
         "states": len(read.moments),
         "steps": [moment.step for moment in read.moments],
-        "cells": [moment.cell.vectors.tolist() for moment in read.moments],
+        "cells_m": [moment.cell.vectors.tolist() for moment in read.moments],
         "periodic": [bool(each) for each in last.cell.periodic],
         "grains": int(last.grains.ids.size),
         "contacts": int(touching.i.size),

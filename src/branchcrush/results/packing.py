@@ -129,9 +129,9 @@ class Packing(Place):
     def _cells(self) -> dict[int, NDArray]:
         told = self.results.get("reading")  # of a packing that another code made
         reading = told.summary if told and told.exists else None
-        if reading is not None and "cells" not in reading:
+        if reading is not None and "cells_m" not in reading:
             raise ResultsError(
-                f"{self.prefix}reading.json of {self.title} lacks cells, as results of another "
+                f"{self.prefix}reading.json of {self.title} lacks cells_m, as results of another "
                 "version may: run the study again"
             )
         cells = path_cells(self.path.data, reading)

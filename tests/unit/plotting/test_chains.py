@@ -84,7 +84,7 @@ def test_figures_show_the_end_of_the_loading_alone(drawn):
     assert slab.get_xlim() == pytest.approx((-5.3, 5.3)) == energy.get_xlim()
     # The whole of a cell that another code tilted.
     tilted = [[[1e-2, 0, 0], [4e-3, 1e-2, 0], [0, 0, 1e-2]]] * 2
-    slab, *_ = drawn(network_figures.draw_chains, GRAINS, both, PATH, {"cells": tilted})
+    slab, *_ = drawn(network_figures.draw_chains, GRAINS, both, PATH, {"cells_m": tilted})
     assert slab.get_xlim() == pytest.approx((-7.42, 7.42))
     roses = drawn(network_figures.draw_rose, both, PATH)
     assert [ax.get_title() for ax in roses] == [f"seen along {axis}" for axis in "xyz"]

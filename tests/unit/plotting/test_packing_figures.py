@@ -34,7 +34,7 @@ def test_packing_is_drawn_before_and_after_to_one_scale(drawn):
 
 def test_packing_of_another_code_is_drawn_in_the_cells_that_were_read(drawn):
     cells = 1e-3 * np.array([np.diag([1.0, 1.0, edge]) for edge in (4.0, 6.0, 5.0)])
-    draw = partial(packing_figures.draw_packing, reading={"cells": cells.tolist()})
+    draw = partial(packing_figures.draw_packing, reading={"cells_m": cells.tolist()})
     first, last = drawn(draw, PACKING, AFTER, PATH, 1e-3)
     assert "first frame" in first.get_title() and "densest frame" in last.get_title()
     # To the scale of the longer one, and its upright edges half as long again.

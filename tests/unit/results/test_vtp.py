@@ -101,7 +101,7 @@ def test_the_cell_of_another_code_is_exported_as_it_was_read(row_of_three, tmp_p
     tilted = [[4.0, 0.0, 0.0], [1.0, 2.0, 0.0], [0.0, 0.5, 3.0]]
     place = tmp_path / "results" / "sand" / "seed_7"
     origin = provenance(sample="sand", seed=7, config={"boundary": "walls"})
-    reading = {"cells": [np.eye(3).tolist()] * 2 + [tilted], "periodic": [False] * 3}
+    reading = {"cells_m": [np.eye(3).tolist()] * 2 + [tilted], "periodic": [False] * 3}
     write_json(place / "reading.json", reading, origin)
     assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) == 0
     points, ends, _, _ = read(tmp_path / "out" / "sand" / "seed_7" / "cell_0002.vtp")
@@ -112,7 +112,7 @@ def test_the_cell_of_another_code_is_exported_as_it_was_read(row_of_three, tmp_p
     # Of a version that did not tell it.
     write_json(place / "reading.json", {"periodic": [False] * 3}, origin)
     assert main(["export", str(tmp_path), "--to", str(tmp_path / "again")]) == 1
-    assert "lacks cells, as results of another version may" in capsys.readouterr().err
+    assert "lacks cells_m, as results of another version may" in capsys.readouterr().err
 
 
 def test_a_periodic_cell_has_an_empty_file_of_walls(tmp_path):

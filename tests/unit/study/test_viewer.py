@@ -224,7 +224,7 @@ def test_a_packing_of_another_code_has_the_cells_and_frames_that_were_read():
     end = {"x_m": [-0.1, 0.4], "y_m": [0, 0], "z_m": [0, 0], "radius_m": [0.5, 0.25]}
     grains = compression_grains(packing, end, path)
     tilted = np.array([np.diag([2.0, 2.0, k + 1.0]) + 0.5 * np.eye(3, k=-1) for k in range(3)])
-    reading = {"cells": tilted.tolist(), "periodic": [True, True, False]}
+    reading = {"cells_m": tilted.tolist(), "periodic": [True, True, False]}
     view = packing_view(
         grains, path, contacts, walls, contact_exponent=1.0, periodic=False, reading=reading
     )
@@ -241,7 +241,7 @@ def test_one_frame_of_another_code_is_drawn_once():
     one = [{**table, "state": [0]} for table in (contacts, walls)]
     packing = (np.zeros((2, 3)), np.array([0.5, 0.25]), 1.0)
     end = {"x_m": [-0.1, 0.4], "y_m": [0, 0], "z_m": [0, 0], "radius_m": [0.5, 0.25]}
-    reading = {"cells": [np.eye(3)], "periodic": [False] * 3}
+    reading = {"cells_m": [np.eye(3)], "periodic": [False] * 3}
     grains = compression_grains(packing, end, path)
     (only,) = viewer_states(grains, path, *one, contact_exponent=1.0, reading=reading)
     assert (only.label, only.radius.tolist()) == ("first frame", [0.5, 0.25])
