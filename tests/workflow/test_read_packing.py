@@ -2,6 +2,7 @@
 
 import shutil
 
+import numpy as np
 import pytest
 
 from branchcrush.files.dictionary import result_files
@@ -21,7 +22,13 @@ samples:
     contact: {law: linear, normal_stiffness: 1.0e6}
 figures: {dpi: 60}
 """
-TARGETS = ["results/others/certificate.json", "results/others/sharing.json"]
+# Of the edge of the cube in the files [m].
+HALF = "0.00394359"
+TARGETS = [
+    "results/others/certificate.json",
+    "results/others/sharing.json",
+    "results/figures/others/view.json",
+]
 
 
 def copied(study):
@@ -31,8 +38,20 @@ def copied(study):
     study.configure(CONFIG)
 
 
+def tilted(study):
+    """Describe the same lattice by a cell that is tilted by its edge: nothing else may change."""
+    grains = study.folder / "grains.dump"
+    cube = "ITEM: BOX BOUNDS pp pp pp\n" + 3 * f"-{HALF} {HALF}\n"
+    text = grains.read_text()
+    assert text.count(cube) == 2
+    bounds = [f"-{HALF} {3 * float(HALF)} {2 * float(HALF)}", *2 * [f"-{HALF} {HALF} 0"]]
+    tilt = "\n".join(["ITEM: BOX BOUNDS xy xz yz pp pp pp", *bounds, ""])
+    grains.write_text(text.replace(cube, tilt))
+
+
 def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     copied(study)
+    tilted(study)
     run = study.snakemake(*TARGETS)
     assert run.returncode == 0, run.stdout + run.stderr
     results = study.folder / "results" / "others"
@@ -52,6 +71,15 @@ def test_a_packing_of_another_code_is_analysed_as_one_of_this(study):
     assert grading["target"]["D_max_m"] == pytest.approx(2.0 * radii.max())
     shared = read_json(results / "sharing.json")["end"]
     assert shared["stress"] and shared["forces"] and "reason" not in shared
+    # Both of its frames are drawn, in the cell of the files.
+    view = read_json(study.folder / "results" / "figures" / "others" / "view.json")["header"]
+    assert [row["label"] for row in view["states"]] == ["first frame", "densest frame"]
+    row = view["states"][-1]
+    assert row["grains"] == 200
+    assert row["contacts"] == read_json(results / "seed_1" / "reading.json")["contacts"] > 200
+    assert view["periodic"] == [True, True, True]
+    cell = 2 * float(HALF) * np.array([[1, 0, 0], [1, 1, 0], [0, 0, 1]])
+    np.testing.assert_allclose(row["cell_m"], cell, atol=1e-12)
     for path in (results / "seed_1").iterdir():
         name = path.relative_to(study.folder / "results").as_posix()
         assert any(file.matches(name) for file in result_files()), name

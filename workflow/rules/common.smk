@@ -106,6 +106,11 @@ def of_first_seed(file):
     return lambda wildcards: of_seeds(file, wildcards.sample, settings_of(wildcards)["seeds"][:1])
 
 
+def of_first_read_seed(file):
+    """Return an input function for a file of the packing that is drawn, if it was read."""
+    return lambda wildcards: of_read_seeds(file)(wildcards)[:1]
+
+
 def of_refined_sample(file):
     """Return an input function for a file of the sample with twice the steps, if there is one."""
 

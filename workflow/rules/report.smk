@@ -60,6 +60,7 @@ rule packing_figures:
         compressed=of_first_seed("compressed.parquet"),
         contacts=of_first_seed("contacts.parquet"),
         walls=of_first_seed("wall_contacts.parquet"),
+        reading=of_first_read_seed("reading.json"),
     output:
         **{name: figure(name) for name in PACKING_FIGURES},
         **as_svg(PACKING_FIGURES),
@@ -71,7 +72,7 @@ rule packing_figures:
         "../envs/branchcrush.yaml"
     params:
         code=code("packing_figures"),
-        sample=section("packing", "grading", "contact", "boundary"),
+        sample=section("grading", "contact", "boundary"),
         tables=NETWORK_TABLES,
         views=len(SAMPLES),
         dpi=SETTINGS.figures.dpi,

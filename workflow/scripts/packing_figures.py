@@ -22,13 +22,15 @@ with recorded_job(snakemake):
     _, largest = grading_of(params.sample["grading"]).support()
 
     figures.draw_grading(output.fig3_grading, dpi, read_table(files.grading))
-    read = bool(params.sample["packing"])
-    figures.draw_packing(output.fig4_packing, dpi, packing, compressed, path, largest, read=read)
+    # Of a packing that another code made.
+    reading = next(map(read_json, files.reading), None)
+    drawn = packing, compressed, path, largest
+    figures.draw_packing(output.fig4_packing, dpi, *drawn, reading=reading)
     figures.draw_certificate(output.certificate, dpi, states, jamming, read_json(files.certificate))
     networks.draw_who_touches_whom(output.who_touches_whom, dpi, numbers, tables, largest)
     networks.draw_sharing(output.sharing, dpi, shared, tables, largest)
     contacts = read_table(files.contacts[0])
-    networks.draw_chains(output.force_chains, dpi, compressed, contacts, path)
+    networks.draw_chains(output.force_chains, dpi, compressed, contacts, path, reading)
     networks.draw_rose(output.contact_rose, dpi, contacts, path)
 
     dump = Path(files.path[0]).with_name("particles.dump.gz")
@@ -41,7 +43,7 @@ with recorded_job(snakemake):
         contact_exponent=contact_law(**params.sample["contact"]).exponent,
         periodic=params.sample["boundary"] == "periodic",
         views=params.views,
-        read=read,
+        reading=reading,
     )
     origin = provenance(sample=snakemake.wildcards.sample, config=params.sample)
     write_json(output.view, view, origin)

@@ -30,8 +30,8 @@ Check a configuration with all that it asks of grains, files and folders, and na
 once, a line each. Names of files in it are relative to its folder.
 """
 _EXPORT = """\
-Write a state of a packing for ParaView: grains, contacts, force chains and the cell, a .vtp file
-each, in a folder for the packing.
+Write a state of a packing for ParaView: grains, contacts, those with walls, force chains and the
+cell, a .vtp file each, in a folder for the packing.
 
   branchcrush export                                  # the first packing, at the end of its loading
   branchcrush export my_sand --sample sand --seed 3   # of a study in another folder

@@ -14,6 +14,8 @@
     grain of one.
 `geometry`
     Volumes of spheres and of the cell.
+`cells`
+    The cell of each state as the vectors of its edges: a cube, or what another code had.
 
 A new contact law is a dataclass of `contact_laws` with `force`, `energy`, `name` and `exponent`, an
 entry of `CONTACT_LAWS`, its section in `config.schema`, and `lammps_inputs/mod.<name>`.

@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from branchcrush.packings.contacts import contact_number, rattlers
 
-# The columns of the contacts tables that networks are made of, and those of the branch vector,
-# which few results need.
+# The columns of the contacts tables that networks are made of, and those of the branch vector and
+# of the direction of a wall, which few results need.
 COLUMNS = ("state", "i", "j", "overlap_m", "normal_force_N", "energy_J")
 VECTOR_COLUMNS = ("branch_x", "branch_y", "branch_z")
 WALL_COLUMNS = ("state", "i", "overlap_m", "normal_force_N")
+DIRECTION_COLUMNS = ("direction_x", "direction_y", "direction_z")
 
 
 class Table(Protocol):

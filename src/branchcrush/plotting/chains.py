@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from branchcrush.files.tables import Table
 from branchcrush.forces.fabric import orientation_band
+from branchcrush.packings.cells import cell_corners
 from branchcrush.plotting.style import FAINT, MEASURED, MODEL, axes
 
 # Sectors of the rose, over half a turn: a branch has no head and no tail.
@@ -17,7 +18,7 @@ _WIDEST = 4.0
 
 
 def plot_slab(
-    grains: Table, contacts: Table, edge: float, thickness: float, ax: Axes | None = None
+    grains: Table, contacts: Table, cell: NDArray, thickness: float, ax: Axes | None = None
 ) -> Axes:
     r"""Draw the force chains of the grains whose centres are in a slab across the middle.
 
@@ -30,8 +31,8 @@ def plot_slab(
         `compressed.parquet`, places about the centre of the cell.
     contacts : DataFrame
         `contacts.parquet` of that state.
-    edge : float
-        Edge of the cell [m].
+    cell : ndarray, shape (3, 3)
+        Vectors of the edges of the cell, a row each [m].
     thickness : float
         Of the slab, across y [m].
     ax : Axes, optional
@@ -54,17 +55,17 @@ def plot_slab(
     )
     ax.add_collection(lines)
     ax.set_title(f"force: widest {force.max():.3g} N, mean {force.mean():.3g} N")
-    return _cell(ax, edge)
+    return _framed(ax, cell)
 
 
 def plot_branch_energy(
-    grains: Table, contacts: Table, edge: float, thickness: float, ax: Axes | None = None
+    grains: Table, contacts: Table, cell: NDArray, thickness: float, ax: Axes | None = None
 ) -> Axes:
     """Draw the branches of the same slab, coloured by the energy that each holds over the mean.
 
     Parameters
     ----------
-    grains, contacts, edge, thickness
+    grains, contacts, cell, thickness
         As for `plot_slab`.
     ax : Axes, optional
 
@@ -89,7 +90,7 @@ def plot_branch_energy(
     ax.figure.colorbar(
         lines, ax=ax, label="energy of the branch\nover the mean [-]", extend="both", shrink=0.8
     )
-    return _cell(ax, edge)
+    return _framed(ax, cell)
 
 
 def plot_rose(contacts: Table, normal: str, ax: Axes | None = None) -> Axes:
@@ -165,7 +166,7 @@ def _discs(ax: Axes, places: NDArray, diameters: NDArray) -> None:
     ax.add_collection(discs)
 
 
-def _cell(ax: Axes, edge: float) -> Axes:
-    half = 0.53e3 * edge
+def _framed(ax: Axes, cell: NDArray) -> Axes:
+    half = 1.06e3 * np.abs(cell_corners(cell)[:, [0, 2]]).max()
     ax.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xlabel="x [mm]", ylabel="z [mm]")
     return ax

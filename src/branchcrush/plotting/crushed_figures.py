@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from branchcrush.files.tables import Table
+from branchcrush.packings.cells import path_cells
 from branchcrush.plotting import crushed, crushed_forms
 from branchcrush.plotting.packings import plot_packing
 from branchcrush.plotting.style import drawn, figure, grid, reason
@@ -139,19 +140,18 @@ def draw_packing(
     colours = ListedColormap(_GENERATIONS)
     with figure(path, dpi, *grid(1, len(chosen)), squeeze=False) as panels:
         rows = loading.set_index("state")
-        extent = float(rows.loc[chosen[0], "volume_m3"]) ** (1.0 / 3.0)
+        cells = dict(zip(rows.index, path_cells(loading), strict=True))
         for ax, state in zip(panels[0], chosen, strict=True):
             here = grains[grains["state"] == state]
             if not set(_POSITION) <= set(grains.columns):
                 reason(ax, "grains.parquet has no positions")
                 continue
-            edge = float(rows.loc[state, "volume_m3"]) ** (1.0 / 3.0)
             generation = np.minimum(here["generation"], len(_GENERATIONS) - 1).to_numpy()
             plot_packing(
                 here[_POSITION].to_numpy(),
                 here["radius_m"].to_numpy(),
-                edge,
-                extent=extent,
+                cells[state],
+                extent=cells[chosen[0]],
                 colours=colours(generation)[:, :3],
                 ax=ax,
             )

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
+from branchcrush.packings.cells import path_cells
 from branchcrush.plotting import branches, chains, forces, shielding
 from branchcrush.plotting.style import SIZE, drawn, figure, grid, reason
 from branchcrush.samples.ensemble import end_of_loading
@@ -91,7 +92,12 @@ def draw_sharing(
 
 
 def draw_chains(
-    path: Path, dpi: int, compressed: Table, contacts: Table, loading_path: Table
+    path: Path,
+    dpi: int,
+    compressed: Table,
+    contacts: Table,
+    loading_path: Table,
+    reading: Mapping | None = None,
 ) -> Figure:
     """Draw force chains and the energy of branches in a slab of a packing, and return the figure.
 
@@ -106,6 +112,8 @@ def draw_chains(
         Its `contacts.parquet`.
     loading_path : DataFrame
         Its `path.csv`.
+    reading : mapping, optional
+        `reading.json` of a packing that another code made, whose cell need not be a cube.
 
     Returns
     -------
@@ -114,12 +122,13 @@ def draw_chains(
     """
     end = end_of_loading(loading_path)
     last = contacts[contacts["state"] == end["state"]]
-    edge, thickness = end["volume_m3"] ** (1 / 3), 2.0 * compressed["radius_m"].max()
+    cell = path_cells(loading_path, reading)[end.name]
+    thickness = 2.0 * compressed["radius_m"].max()
     plots = (chains.plot_slab, chains.plot_branch_energy)
     with figure(path, dpi, *grid(1, 2)) as panels:
         for ax, plot in zip(panels, plots, strict=True):
             if last["normal_force_N"].max() > 0:
-                plot(compressed, last, edge, thickness, ax=ax)
+                plot(compressed, last, cell, thickness, ax=ax)
             else:
                 reason(ax, "no grain touches another at the end of the loading")
     return panels[0].figure

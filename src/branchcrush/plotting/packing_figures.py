@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from branchcrush.files.tables import Table
+from branchcrush.packings.cells import path_cells
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.plotting import certificate, gradings
 from branchcrush.plotting.packings import plot_packing
@@ -66,7 +67,7 @@ def draw_packing(
     loading_path: Table,
     radius_max: float,
     *,
-    read: bool = False,
+    reading: Mapping | None = None,
 ) -> Figure:
     """Draw Fig. 4, a packing before and after its loading to one scale, and return it.
 
@@ -83,23 +84,25 @@ def draw_packing(
         `path.csv` of this packing.
     radius_max : float
         At the dark end of the colours [m].
-    read : bool
-        Whether another code made the packing, whose first state is none as placed.
+    reading : mapping, optional
+        `reading.json` of a packing that another code made: its cells, and frames for states.
 
     Returns
     -------
     Figure
     """
-    positions, radii, edge = packing
-    end = end_of_loading(loading_path)
-    scale = {"extent": edge, "radius_max": radius_max}
+    positions, radii, _ = packing
+    end, cells = end_of_loading(loading_path), path_cells(loading_path, reading)
+    pair = cells[[0, end.name]]
+    scale = {"extent": pair, "radius_max": radius_max}
     with figure(path, dpi, *grid(1, 2)) as (before, after):
-        plot_packing(positions, radii, edge, **scale, ax=before)
+        plot_packing(positions, radii, pair[0], **scale, ax=before)
         positions = compressed[["x_m", "y_m", "z_m"]].to_numpy()
-        last_edge = end["volume_m3"] ** (1 / 3)
-        plot_packing(positions, compressed["radius_m"].to_numpy(), last_edge, **scale, ax=after)
+        plot_packing(positions, compressed["radius_m"].to_numpy(), pair[1], **scale, ax=after)
         first = loading_path["solid_fraction"].iloc[0]
-        words = ("first state", "densest state") if read else ("placed at random", "compressed")
+        words = ("placed at random", "compressed")
+        if reading is not None:
+            words = ("first frame", "densest frame")
         before.set_title(rf"{words[0]}, $\phi$ = {first:.3f}")
         after.set_title(rf"{words[1]}, $\phi$ = {end['solid_fraction']:.3f}")
     return before.figure

@@ -4,13 +4,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from branchcrush.packings.cells import CELL_EDGES, cell_corners
 from branchcrush.plotting.style import axes
 
 # The view: turned about the vertical, then tilted, as a draughtsman's box is drawn.
 _TURN, _TILT = np.radians(35.0), np.radians(22.0)
+# Half the width of the picture over that of what is seen of the cell: grains stand out of it.
+_RIM = 1.19
 _LIGHT = np.array([-0.45, -0.7, 0.55]) / np.linalg.norm([-0.45, -0.7, 0.55])
-_CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2.0
-_EDGES = [(a, b) for a in range(8) for b in range(a) if np.abs(_CUBE[a] - _CUBE[b]).sum() == 1]
 
 
 def sphere_image(
@@ -73,9 +74,9 @@ def sphere_image(
 def plot_packing(
     positions: NDArray,
     radii: NDArray,
-    edge: float,
+    cell: NDArray,
     *,
-    extent: float | None = None,
+    extent: NDArray | None = None,
     pixels: int = 900,
     radius_max: float | None = None,
     colours: NDArray | None = None,
@@ -89,10 +90,10 @@ def plot_packing(
         About the centre of the cell [m].
     radii : ndarray, shape (N,)
         [m]
-    edge : float
-        Edge of the cell [m].
-    extent : float, optional
-        Edge of the cell that would fill the picture, to draw two states to one scale [m].
+    cell : ndarray, shape (3, 3)
+        Vectors of the edges of the cell, a row each [m].
+    extent : ndarray, shape (3, 3) or (C, 3, 3), optional
+        Cells that the picture is to hold, to draw states to one scale; its own without [m].
     pixels : int
         Width of the picture.
     radius_max : float, optional
@@ -107,21 +108,21 @@ def plot_packing(
 
     Examples
     --------
-    >>> ax = plot_packing(np.zeros((1, 3)), np.ones(1), 2.0, pixels=50)
+    >>> ax = plot_packing(np.zeros((1, 3)), np.ones(1), 2.0 * np.eye(3), pixels=50)
     """
     from matplotlib import colormaps
 
     ax = axes(ax)
     view = _rotation()
-    scale = 0.86 * (extent or edge)
+    scale = _RIM * np.abs(cell_corners(cell if extent is None else extent) @ view.T)[..., ::2].max()
     if colours is None:
         colours = colormaps["viridis"](1.0 - 0.85 * radii / (radius_max or radii.max()))[:, :3]
     image = sphere_image(positions @ view.T, radii, scale, pixels, colours)
-    corners = _CUBE * edge @ view.T
+    corners = cell_corners(cell) @ view.T
     ends = (-scale * 1e3, scale * 1e3)
     # Of the cell's edges those that meet at the far corner are behind the grains.
     far = np.argmax(corners[:, 1])
-    for a, b in _EDGES:
+    for a, b in CELL_EDGES:
         behind = far in (a, b)
         ax.plot(
             corners[[a, b], 0] * 1e3,

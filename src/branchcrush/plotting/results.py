@@ -57,7 +57,7 @@ def plot(what: Result | State, ax: Axes | None = None) -> Axes:
     if isinstance(what, State):
         grains = what.grains
         centres = grains[["x_m", "y_m", "z_m"]].to_numpy()
-        ax = plot_packing(centres, grains["radius_m"].to_numpy(), what.edge, ax=axes(ax))
+        ax = plot_packing(centres, grains["radius_m"].to_numpy(), what.cell, ax=axes(ax))
         ax.set_title(what.title, fontsize=7)
         return ax
     panel = PANELS.get(what.name)

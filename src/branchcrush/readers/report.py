@@ -30,8 +30,8 @@ def reading_report(
     Returns
     -------
     dict
-        files, states, steps, grains, contacts, wall_contacts, digits, overlap_error,
-        force_by_law, tangential_share and notes. Numbers are of the last frame.
+        files, states, steps, cells_m, periodic, grains, contacts, wall_contacts, digits,
+        overlap_error, force_by_law, tangential_share and notes. Numbers are of the last frame.
 
     Examples
     --------
@@ -61,6 +61,8 @@ def reading_report(
         "files": list(files),
         "states": len(read.moments),
         "steps": [moment.step for moment in read.moments],
+        "cells_m": [moment.cell.vectors.tolist() for moment in read.moments],
+        "periodic": [bool(each) for each in last.cell.periodic],
         "grains": int(last.grains.ids.size),
         "contacts": int(touching.i.size),
         "wall_contacts": int(touching.wall_grain.size),

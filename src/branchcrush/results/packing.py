@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 from branchcrush.errors import ResultsError
 from branchcrush.files.tables import read_packing
 from branchcrush.forces.chains import ForceChains, force_chains
+from branchcrush.packings.cells import path_cells
 from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_stress_volume
-from branchcrush.packings.network import WALL_COLUMNS, Network, state_network
+from branchcrush.packings.network import DIRECTION_COLUMNS, WALL_COLUMNS, Network, state_network
 from branchcrush.results import vtp
 from branchcrush.results.place import Place
 from branchcrush.results.result import drawn_by_plotting
 
 _CENTRE = ["x_m", "y_m", "z_m"]
-_DIRECTION = ["direction_x", "direction_y", "direction_z"]
 
 
 class Packing(Place):
@@ -125,6 +125,18 @@ class Packing(Place):
             raise ResultsError(f"{file} is not there: rule compression writes it")
         return read_packing(file)
 
+    @cached_property
+    def _cells(self) -> dict[int, NDArray]:
+        told = self.results.get("reading")  # of a packing that another code made
+        reading = told.summary if told and told.exists else None
+        if reading is not None and "cells_m" not in reading:
+            raise ResultsError(
+                f"{self.prefix}reading.json of {self.title} lacks cells_m, as results of another "
+                "version may: run the study again"
+            )
+        cells = path_cells(self.path.data, reading)
+        return dict(zip(self.path["state"], cells, strict=True))
+
     def _grains_at(self, number: int) -> pd.DataFrame | None:
         """Return centre and radius of each grain in a state; None where they are not kept."""
         if number == 0:
@@ -185,9 +197,9 @@ class State:
         return table[table["state"] == self.number].iloc[0]
 
     @property
-    def edge(self) -> float:
-        """Edge of the cell, whose centre is the origin [m]."""
-        return float(self.numbers["volume_m3"]) ** (1.0 / 3.0)
+    def cell(self) -> NDArray:
+        """Vectors of the edges of the cell, a row each; its centre is the origin [m]."""
+        return self.packing._cells[self.number]
 
     @cached_property
     def contacts(self) -> pd.DataFrame:
@@ -239,7 +251,9 @@ class State:
     @cached_property
     def force_chains(self) -> ForceChains:
         """Which contacts are links of force chains, by `forces.chains.force_chains`."""
-        return force_chains(self.network, self.wall_contacts[_DIRECTION].to_numpy(dtype=float))
+        return force_chains(
+            self.network, self.wall_contacts[[*DIRECTION_COLUMNS]].to_numpy(dtype=float)
+        )
 
     def plot(self, ax: Any = None) -> Any:
         """Draw its grains in the cell, and return the Axes.
@@ -256,7 +270,7 @@ class State:
         return drawn_by_plotting(self, ax)
 
     def export_vtp(self, folder: str | Path) -> list[Path]:
-        """Write it for ParaView: grains, contacts, force chains and the cell, a file each.
+        """Write it for ParaView: grains, contacts, with walls too, chains and cell, a file each.
 
         Parameters
         ----------
@@ -269,7 +283,8 @@ class State:
             What was written, as `grains_0009.vtp` of state 9: ParaView shows states in turn.
         """
         table, chains = self.grains, self.force_chains
-        return vtp.write_state(folder, self.number, self.edge, table, self.contacts, chains)
+        contacts = self.contacts, self.wall_contacts
+        return vtp.write_state(folder, self.number, self.cell, table, *contacts, chains)
 
     def __repr__(self) -> str:
         row = self.numbers

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from branchcrush.packings.cells import cell_corners
+
 # What a page may hold for one packing: with its figures it stays under 6 MB.
 PAGE_BYTES = 2_000_000
-# The walls as `wall_contacts.parquet` names them, in the order of their codes.
-WALLS = ("-x", "+x", "-y", "+y", "-z", "+z")
 _STEPS = 65535
 _LOGARITHMIC = ("radius", "energy", "pressure", "force")
 
@@ -22,7 +22,7 @@ class ViewerState:
 
     state: int  # number of the state
     label: str  # what it is, in two or three words
-    edge: float  # of the cubic cell, which is about the origin [m]
+    cell: NDArray  # vectors of its edges, a row each, about the origin, shape (3, 3) [m]
     solid_fraction: float  # phi [-]
     mean_stress: float  # [Pa]
     positions: NDArray  # shape (N, 3) [m]
@@ -33,7 +33,7 @@ class ViewerState:
     j: NDArray
     force: NDArray  # of each contact, shape (M,) [N]
     wall_grain: NDArray  # the grain of each contact with a wall, shape (W,)
-    wall: NDArray  # which of `WALLS`, from 0, shape (W,)
+    wall_direction: NDArray  # of unit length from the grain to the wall, shape (W, 3) [-]
     wall_force: NDArray  # shape (W,) [N]
     generation: NDArray | None = None  # breakages before each grain, shape (N,); None: none break
 
@@ -41,7 +41,7 @@ class ViewerState:
     def words(self) -> int:
         """Numbers of 16 bits that it takes."""
         index = 2 if self.wide else 1
-        walls = (2 + index) * len(self.wall_grain)
+        walls = (4 + index) * len(self.wall_grain)
         return 7 * len(self.radius) + (1 + 2 * index) * len(self.force) + walls
 
     @property
@@ -60,13 +60,14 @@ class ViewerData(NamedTuple):
 def viewer_data(
     states: Sequence[ViewerState],
     *,
-    periodic: bool,
+    periodic: Sequence[bool],
     limit_bytes: int = PAGE_BYTES,
     saved_states: int | None = None,
 ) -> ViewerData:
     r"""Pack saved states for the page: numbers of 16 bits in base64, and a header of JSON.
 
-    A coordinate is a multiple of 1/65535 of the range of the state's coordinates. Radius, energy,
+    A coordinate is a multiple of 1/65535 of the range of the state's coordinates, one of a
+    direction of the range from -1 to 1. Radius, energy,
     pressure and force have equal ratios between their steps, one scale for all states:
 
     .. math:: v = v_{\min} (v_{\max}/v_{\min})^{(k - 1)/65534}, \quad k = 1 \ldots 65535
@@ -81,8 +82,8 @@ def viewer_data(
     ----------
     states : sequence of ViewerState
         In the order of the loading.
-    periodic : bool
-        Whether the cell is; otherwise it has walls.
+    periodic : sequence of bool, shape (3,)
+        Whether the cell is, along each of its edges.
     limit_bytes : int
         Of the text in base64.
     saved_states : int, optional
@@ -100,9 +101,9 @@ def viewer_data(
     Examples
     --------
     >>> no, one = np.zeros(0), np.ones(1)
-    >>> grain = ViewerState(0, "placed", 4.0, 0.07, 0.0, np.zeros((1, 3)), one, 0 * one, 0 * one,
-    ...                     no, no, no, no, no, no)
-    >>> header, data = viewer_data([grain], periodic=True)
+    >>> grain = ViewerState(0, "placed", 4.0 * np.eye(3), 0.07, 0.0, np.zeros((1, 3)), one,
+    ...                     0 * one, 0 * one, no, no, no, no, np.zeros((0, 3)), no)
+    >>> header, data = viewer_data([grain], periodic=[True] * 3)
     >>> header["scales"]["radius"], header["states"][0]["grains"], len(data)
     ([1.0, 1.0], 1, 20)
     """
@@ -116,13 +117,13 @@ def viewer_data(
     scales = {name: _scale([_values(state, name) for state in kept]) for name in _LOGARITHMIC}
     words, rows, offset = [], [], 0
     for state in kept:
-        span = max(float(np.abs(state.positions).max(initial=0.0)), state.edge / 2.0)
+        span = float(np.abs(np.concatenate([state.positions, cell_corners(state.cell)])).max())
         part = _words(state, span, scales)
         rows.append(
             {
                 "state": int(state.state),
                 "label": state.label,
-                "edge_m": float(state.edge),
+                "cell_m": np.asarray(state.cell, dtype=float).tolist(),
                 "span_m": span,
                 "solid_fraction": float(state.solid_fraction),
                 "mean_stress_Pa": float(state.mean_stress),
@@ -136,7 +137,7 @@ def viewer_data(
         words.append(part)
         offset += part.size
     header = {
-        "periodic": bool(periodic),
+        "periodic": [bool(each) for each in periodic],
         "breaks": any(state.generation is not None for state in kept),
         "scales": scales,
         "states": rows,
@@ -151,8 +152,8 @@ def _check(states: Sequence[ViewerState]) -> None:
     """Refuse what cannot be drawn, naming all of it."""
     wrong = []
     for state in states:
-        for name in ("positions", *_LOGARITHMIC):
-            value = _values(state, name) if name in _LOGARITHMIC else state.positions
+        for name in ("cell", "positions", "wall_direction", *_LOGARITHMIC):
+            value = _values(state, name)
             if not np.all(np.isfinite(value)):
                 wrong.append(f"state {state.state}: {name} holds a number that is not finite")
         if np.any(np.asarray(state.radius) <= 0):
@@ -225,6 +226,12 @@ def _coded(values: ArrayLike, scale: list[float] | None) -> NDArray:
     return code
 
 
+def _shares(vectors: ArrayLike, span: float) -> NDArray:
+    """Return the step of each coordinate from -span to span, a row for x, y and z."""
+    places = np.asarray(vectors, dtype=float).reshape(-1, 3).T
+    return ((places / span + 1.0) / 2.0 * _STEPS).round()
+
+
 def _indices(grains: ArrayLike, wide: bool) -> list[NDArray]:
     """Return numbers of grains in one word, or their lower and their upper words."""
     number = np.asarray(grains).astype(np.uint32)
@@ -233,18 +240,17 @@ def _indices(grains: ArrayLike, wide: bool) -> list[NDArray]:
 
 def _words(state: ViewerState, span: float, scales: dict[str, Any]) -> NDArray:
     """Return all numbers of a state, one kind after the other."""
-    places = (np.asarray(state.positions, dtype=float) / span + 1.0) / 2.0 * _STEPS
     grains = len(state.radius)
     born = np.zeros(grains) if state.generation is None else np.asarray(state.generation)
     parts = [
-        *places.round().reshape(grains, 3).T,
+        *_shares(state.positions, span),
         *(_coded(getattr(state, name), scales[name]) for name in ("radius", "energy", "pressure")),
         born,
         *_indices(state.i, state.wide),
         *_indices(state.j, state.wide),
         _coded(state.force, scales["force"]),
         *_indices(state.wall_grain, state.wide),
-        np.asarray(state.wall),
+        *_shares(state.wall_direction, 1.0),
         _coded(state.wall_force, scales["force"]),
     ]
     return np.concatenate([np.asarray(part).astype(np.uint16) for part in parts])

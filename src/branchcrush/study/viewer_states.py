@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from branchcrush.packings.cells import path_cells
 from branchcrush.packings.geometry import sphere_volume
 from branchcrush.packings.grains import grain_energy, grain_stress_volume
-from branchcrush.packings.network import Table, state_networks, state_rows
-from branchcrush.study.viewer import PAGE_BYTES, WALLS, ViewerState, viewer_data
+from branchcrush.packings.network import DIRECTION_COLUMNS, Table, state_networks, state_rows
+from branchcrush.study.viewer import PAGE_BYTES, ViewerState, viewer_data
 
 _COORDINATES = ("x_m", "y_m", "z_m")
 # What the views of a page may hold together, and each at least.
@@ -26,35 +27,37 @@ def packing_view(
     periodic: bool,
     views: int = 1,
     loose: NDArray | None = None,
-    read: bool = False,
+    reading: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Return the states of a packing, packed for a page that has some views of packings.
 
     Parameters
     ----------
-    grains, path, contacts, walls, contact_exponent, loose
+    grains, path, contacts, walls, contact_exponent, loose, reading
         As for `viewer_states`.
     periodic : bool
-        Whether the cell is; otherwise it has walls.
+        Whether the cell is in all directions, where no reading tells each.
     views : int
         On the page, which share what it may hold.
-    read : bool
-        Whether another code made the packing, whose cell may have any shape: it is not drawn.
 
     Returns
     -------
     dict
         `view.json`: header and data of `viewer.viewer_data`.
     """
-    if read:
-        reason = "the cell of another code's packing may have any shape"
-        return {"header": {"reason": reason}, "data": ""}
     states = viewer_states(
-        grains, path, contacts, walls, contact_exponent=contact_exponent, loose=loose
+        grains,
+        path,
+        contacts,
+        walls,
+        contact_exponent=contact_exponent,
+        loose=loose,
+        reading=reading,
     )
+    along = [periodic] * 3 if reading is None else reading["periodic"]
     limit = max(_OF_ALL // max(views, 1), _OF_EACH)
     saved = len(np.asarray(path["state"]))
-    packed = viewer_data(states, periodic=periodic, limit_bytes=limit, saved_states=saved)
+    packed = viewer_data(states, periodic=along, limit_bytes=limit, saved_states=saved)
     return {"header": packed.header, "data": packed.data}
 
 
@@ -128,6 +131,10 @@ def compression_grains(
     """
     positions, radii, _ = packing
     loading = np.asarray(path["state"])[np.asarray(path["leg"]) == "loading"]
+    if loading[-1] == 0:  # one frame of another code is both
+        return {"state": np.zeros(len(radii), dtype=int)} | {
+            name: np.asarray(compressed[name]) for name in ("radius_m", *_COORDINATES)
+        }
     columns = dict(zip(_COORDINATES, np.asarray(positions).T, strict=True))
     columns = {**columns, "radius_m": np.asarray(radii)}
     sizes = [len(radii), len(compressed["radius_m"])]
@@ -191,6 +198,7 @@ def viewer_states(
     *,
     contact_exponent: float,
     loose: NDArray | None = None,
+    reading: Mapping[str, Any] | None = None,
 ) -> list[ViewerState]:
     """Return the saved states of a packing whose positions are known, as the page draws them.
 
@@ -206,6 +214,8 @@ def viewer_states(
         m of F ~ overlap^m: 1 for linear contacts, 3/2 for Hertz.
     loose : ndarray, shape (N, 3), optional
         Positions of state 0, where `grains` does not have them [m].
+    reading : mapping, optional
+        `reading.json` of a packing that another code made: its cells, and frames for states.
 
     Returns
     -------
@@ -216,6 +226,10 @@ def viewer_states(
     states = list(rows)
     parts = state_rows(grains["state"], states)
     held = state_rows(walls["state"], states)
+    cells, labels = path_cells(path, reading), _labels(path, reading)
+    directions = np.column_stack(
+        [np.asarray(walls[name], dtype=float) for name in DIRECTION_COLUMNS]
+    )
     drawn = []
     for state, part, at_wall in zip(states, parts, held, strict=True):
         places = np.column_stack([np.asarray(grains[name])[part] for name in _COORDINATES])
@@ -225,12 +239,11 @@ def viewer_states(
             continue
         radius = np.asarray(grains["radius_m"])[part]
         network = next(state_networks(radius, contacts, walls, [state]))
-        names = np.asarray(walls["wall"])[at_wall]
         drawn.append(
             ViewerState(
                 state=state,
-                label=_label(path, rows[state]),
-                edge=float(np.asarray(path["volume_m3"])[rows[state]]) ** (1 / 3),
+                label=labels[rows[state]],
+                cell=cells[rows[state]],
                 solid_fraction=float(np.asarray(path["solid_fraction"])[rows[state]]),
                 mean_stress=float(np.asarray(path["mean_stress_Pa"])[rows[state]]),
                 positions=places,
@@ -241,7 +254,7 @@ def viewer_states(
                 j=network.j,
                 force=network.force,
                 wall_grain=network.wall_grain,
-                wall=np.array([WALLS.index(name) for name in names], dtype=int),
+                wall_direction=directions[at_wall],
                 wall_force=network.wall_force,
                 generation=np.asarray(grains["generation"])[part] if _breaks(grains) else None,
             )
@@ -253,10 +266,11 @@ def _breaks(grains: Any) -> bool:
     return "generation" in grains
 
 
-def _label(path: Table, row: int) -> str:
-    """Return what a state is, in a word or two."""
-    if row == 0:
-        return "placed at random"
-    if row == 1:
-        return "end of the approach"
-    return str(np.asarray(path["leg"])[row])
+def _labels(path: Table, reading: Mapping[str, Any] | None) -> list[str]:
+    """Return what each state is, in a word or two."""
+    legs = [str(leg) for leg in np.asarray(path["leg"])]
+    if reading is None:
+        known = {0: "placed at random", 1: "end of the approach"}
+    else:  # the first alone, where it is the densest as well
+        known = {legs.count("loading") - 1: "densest frame", 0: "first frame"}
+    return [known.get(row, leg) for row, leg in enumerate(legs)]

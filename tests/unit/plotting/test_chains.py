@@ -31,6 +31,7 @@ CONTACTS = pd.DataFrame(
         "energy_J": [6.0, 2.0, 1.0],
     }
 )
+CELL = 1e-2 * np.eye(3)
 PATH = pd.DataFrame(
     {"leg": ["loading"] * 2, "state": [6, 7], "volume_m3": [2e-6, 1e-6], "solid_fraction": 0.6}
 )
@@ -42,7 +43,7 @@ def lines_of(ax):
 
 
 def test_slab_has_its_own_contacts_as_wide_as_their_forces():
-    lines, segments = lines_of(chains.plot_slab(GRAINS, CONTACTS, 1e-2, 1e-3))
+    lines, segments = lines_of(chains.plot_slab(GRAINS, CONTACTS, CELL, 1e-3))
     # Two halves each of the pair in the middle and of the one through the face.
     np.testing.assert_allclose(segments[0], [[-1, 0], [0, 0]], atol=1e-12)
     np.testing.assert_allclose(segments[1], [[1, 0], [0, 0]], atol=1e-12)
@@ -53,12 +54,12 @@ def test_slab_has_its_own_contacts_as_wide_as_their_forces():
 
 
 def test_a_thicker_slab_holds_the_grain_above():
-    _, segments = lines_of(chains.plot_slab(GRAINS, CONTACTS, 1e-2, 4.1e-3))
+    _, segments = lines_of(chains.plot_slab(GRAINS, CONTACTS, CELL, 4.1e-3))
     assert len(segments) == 6
 
 
 def test_branches_are_coloured_by_energy_over_the_mean():
-    lines, _ = lines_of(chains.plot_branch_energy(GRAINS, CONTACTS, 1e-2, 1e-3))
+    lines, _ = lines_of(chains.plot_branch_energy(GRAINS, CONTACTS, CELL, 1e-3))
     np.testing.assert_allclose(lines.get_array(), [2.0, 2.0, 1 / 3, 1 / 3])
 
 
@@ -81,6 +82,10 @@ def test_figures_show_the_end_of_the_loading_alone(drawn):
     slab, energy, *_ = drawn(network_figures.draw_chains, GRAINS, both, PATH)
     assert "widest 4 N, mean 2.33 N" in slab.get_title()
     assert slab.get_xlim() == pytest.approx((-5.3, 5.3)) == energy.get_xlim()
+    # The whole of a cell that another code tilted.
+    tilted = [[[1e-2, 0, 0], [4e-3, 1e-2, 0], [0, 0, 1e-2]]] * 2
+    slab, *_ = drawn(network_figures.draw_chains, GRAINS, both, PATH, {"cells_m": tilted})
+    assert slab.get_xlim() == pytest.approx((-7.42, 7.42))
     roses = drawn(network_figures.draw_rose, both, PATH)
     assert [ax.get_title() for ax in roses] == [f"seen along {axis}" for axis in "xyz"]
 

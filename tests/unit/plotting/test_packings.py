@@ -8,6 +8,7 @@ from branchcrush.plotting.packings import plot_packing, sphere_image
 
 pytestmark = pytest.mark.filterwarnings("error")
 
+CUBE = np.eye(3)
 RED, BLUE = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
 
 
@@ -47,7 +48,9 @@ def test_sphere_outside_the_picture_leaves_it_clear():
 
 def test_larger_grains_are_darker():
     def brightness(radius):
-        ax = plot_packing(np.zeros((1, 3)), np.array([radius]), 4e-3, pixels=60, radius_max=1e-3)
+        ax = plot_packing(
+            np.zeros((1, 3)), np.array([radius]), 4e-3 * CUBE, pixels=60, radius_max=1e-3
+        )
         image = ax.images[0].get_array()
         return image[30, 30, :3].sum()
 
@@ -55,10 +58,11 @@ def test_larger_grains_are_darker():
 
 
 def test_cell_is_drawn_to_the_scale_of_the_larger_one():
-    whole = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 2e-3, pixels=20)
-    part = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 1e-3, extent=2e-3, pixels=20)
-    # Half the cube, 0.86 of the edge, in mm.
-    assert_allclose(whole.get_xlim(), (-1.72, 1.72))
+    whole = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 2e-3 * CUBE, pixels=20)
+    both = np.array([2e-3 * CUBE, 1e-3 * CUBE])
+    part = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, 1e-3 * CUBE, extent=both, pixels=20)
+    # 0.86 of the edge of a cube, in mm.
+    assert_allclose(whole.get_xlim(), (-1.72, 1.72), rtol=5e-3)
     assert_allclose(part.get_xlim(), whole.get_xlim())
     edges, halves = ([line.get_xdata() for line in ax.lines[:12]] for ax in (whole, part))
     assert_allclose(np.array(halves), np.array(edges) / 2.0)
@@ -69,3 +73,13 @@ def test_cell_is_drawn_to_the_scale_of_the_larger_one():
     assert np.sum(np.isclose(np.ravel(lengths[:12]), 2.0 * np.cos(np.radians(22.0)))) == 4
     assert lengths[12] == pytest.approx(1.0)
     assert whole.texts[0].get_text() == "1 mm"
+
+
+def test_a_tilted_cell_has_edges_along_its_vectors():
+    tilted = 1e-3 * np.array([[2.0, 0, 0], [1.0, 2, 0], [0, 0, 3]])
+    ax = plot_packing(np.zeros((1, 3)), np.ones(1) * 1e-4, tilted, pixels=20)
+    ways = [(np.ptp(line.get_xdata()), np.ptp(line.get_ydata())) for line in ax.lines[:12]]
+    # Turned by 35 degrees about the vertical, and tilted by 22.
+    (c, s), (ct, st) = ((np.cos(np.radians(one)), np.sin(np.radians(one))) for one in (35.0, 22.0))
+    seen = [(abs(c * x + s * y), abs(st * (c * y - s * x) + ct * z)) for x, y, z in 1e3 * tilted]
+    assert sorted(np.round(ways, 9).tolist()) == sorted(np.round(4 * seen, 9).tolist())

@@ -120,9 +120,13 @@ def test_grains_touch_through_the_face_of_a_tilted_cell(tmp_path):
     source = Source(
         format="lammps", grains=[grains], contacts=[contact], periodic=True, columns=columns
     )
-    moment = read_frames(source).moments[0]
+    read = read_frames(source)
+    moment = read.moments[0]
     assert moment.touching.overlap.tolist() == pytest.approx([0.1])
     assert moment.cell.volume == pytest.approx(1000.0)
+    report = reading_report(read, LAW, [])
+    assert report["cells_m"] == [[[10, 0, 0], [4, 10, 0], [0, 0, 10]]]
+    assert report["periodic"] == [True, True, True]
     # Without its tilt they are far from each other.
     straight = tmp_path / "straight.dump"
     straight.write_text(

@@ -55,7 +55,7 @@ def row_of_three(tmp_path):
     positions = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     radii = [0.5, 0.5, 0.5]
     contacts = [touching(k, k + 1, positions, radii, 3.0) for k in range(2)]
-    side = {"state": 2, "overlap_m": 0.0, "normal_force_N": 0.1, "wall": "+y"}
+    side = {"state": 2, "overlap_m": 0.05, "normal_force_N": 0.1, "wall": "+y"}
     side |= {"direction_x": 0.0, "direction_y": 1.0, "direction_z": 0.0}
     walls = [{**side, "i": grain} for grain in (0, 1, 2) for _ in range(4)]
     return write_results(tmp_path, positions, radii, contacts, walls)

@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from branchcrush.command.main import main
+from branchcrush.files.tables import provenance, write_json
 from branchcrush.files.vtk_xml import write_polydata
+from tests.unit.results.conftest import touching, write_results
 
 vtk_xml = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
 numpy_support = pytest.importorskip("vtkmodules.util.numpy_support")
@@ -30,6 +32,7 @@ def read(path):
     )  # fmt: skip
 
 
+NAMES = ("grains", "contacts", "wall_contacts", "force_chains", "cell")
 finite = st.floats(-1e300, 1e300)
 
 
@@ -72,9 +75,7 @@ def test_the_state_of_a_packing_is_exported_with_its_chain(row_of_three, tmp_pat
     assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) == 0
     folder = tmp_path / "out" / "sand" / "seed_7"
     printed = [line for line in capsys.readouterr().out.splitlines()]
-    assert printed == [
-        str(folder / f"{name}_0002.vtp") for name in ("grains", "contacts", "force_chains", "cell")
-    ]
+    assert printed == [str(folder / f"{name}_0002.vtp") for name in NAMES]
     points, _, grains, _ = read(folder / "grains_0002.vtp")
     assert points.tolist() == [[-1, 0, 0], [0, 0, 0], [1, 0, 0]]
     assert grains["diameter_m"].tolist() == [1.0, 1.0, 1.0]
@@ -82,11 +83,45 @@ def test_the_state_of_a_packing_is_exported_with_its_chain(row_of_three, tmp_pat
     points, ends, _, contacts = read(folder / "contacts_0002.vtp")
     assert points[ends].tolist() == [[-1, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0]]
     assert contacts["normal_force_N"].tolist() == [3.0, 3.0]
+    # Four of each grain with walls at +y, to where they are.
+    points, ends, _, walls = read(folder / "wall_contacts_0002.vtp")
+    lines = points[ends].reshape(-1, 2, 3)
+    assert lines[:, 0].tolist() == [[x, 0, 0] for x in (-1, 0, 1) for _ in range(4)]
+    assert (lines[:, 1] - lines[:, 0]).tolist() == [[0, 0.45, 0]] * 12
+    assert walls["normal_force_N"].tolist() == [0.1] * 12
+    assert walls["i"].tolist() == [0] * 4 + [1] * 4 + [2] * 4
     # Each grain's stress is above the mean of none: the middle one alone is highly stressed.
     points, ends, _, _ = read(folder / "force_chains_0002.vtp")
     assert not len(points) and not len(ends)
     points, _, _, _ = read(folder / "cell_0002.vtp")
     assert np.ptp(points, axis=0) == pytest.approx(3 * [3.75])
+
+
+def test_the_cell_of_another_code_is_exported_as_it_was_read(row_of_three, tmp_path, capsys):
+    tilted = [[4.0, 0.0, 0.0], [1.0, 2.0, 0.0], [0.0, 0.5, 3.0]]
+    place = tmp_path / "results" / "sand" / "seed_7"
+    origin = provenance(sample="sand", seed=7, config={"boundary": "walls"})
+    reading = {"cells_m": [np.eye(3).tolist()] * 2 + [tilted], "periodic": [False] * 3}
+    write_json(place / "reading.json", reading, origin)
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) == 0
+    points, ends, _, _ = read(tmp_path / "out" / "sand" / "seed_7" / "cell_0002.vtp")
+    assert np.ptp(points, axis=0).tolist() == [5.0, 2.5, 3.0]
+    edges = np.abs(np.diff(points[ends].reshape(-1, 2, 3), axis=1)[:, 0])
+    found, times = np.unique(edges, axis=0, return_counts=True)
+    assert (found.tolist(), times.tolist()) == (sorted(tilted), [4, 4, 4])
+    # Of a version that did not tell it.
+    write_json(place / "reading.json", {"periodic": [False] * 3}, origin)
+    assert main(["export", str(tmp_path), "--to", str(tmp_path / "again")]) == 1
+    assert "lacks cells_m, as results of another version may" in capsys.readouterr().err
+
+
+def test_a_periodic_cell_has_an_empty_file_of_walls(tmp_path):
+    positions, radii = np.array([[-0.4, 0.0, 0.0], [0.4, 0.0, 0.0]]), [0.5, 0.5]
+    study = write_results(tmp_path, positions, radii, [touching(0, 1, positions, radii, 3.0)])
+    written = study["sand"].seed(7).end.export_vtp(tmp_path / "out")
+    assert [path.name for path in written] == [f"{name}_0002.vtp" for name in NAMES]
+    points, ends, _, _ = read(tmp_path / "out" / "wall_contacts_0002.vtp")
+    assert not len(points) and not len(ends)
 
 
 @pytest.mark.parametrize(

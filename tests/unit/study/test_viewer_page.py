@@ -7,7 +7,7 @@ from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
 from branchcrush.study.viewer import viewer_data
 from tests.unit.study.browser import at_rest, browser, difference, open_page, picture, requests
-from tests.unit.study.viewed import EDGE, state, write_page
+from tests.unit.study.viewed import CUBE, state, write_page
 
 # The view that a page begins with.
 TURN, TILT = 0.61, 0.38
@@ -43,11 +43,11 @@ def driver():
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
     many = np.stack(np.meshgrid(*[np.linspace(-4, 4, 5)] * 3), axis=-1).reshape(-1, 3)
-    walled = state(many, np.full(125, 0.9), walls=[(0, 4, 1.0)])
+    walled = state(many, np.full(125, 0.9), walls=[(0, 0, 0, -1, 1.0)])
     views = {
-        "view": viewer_data(STATES, periodic=True, saved_states=3),
-        "walled": viewer_data([walled], periodic=False),
-        "large": viewer_data([walled], periodic=False, limit_bytes=100),
+        "view": viewer_data(STATES, periodic=[True] * 3, saved_states=3),
+        "walled": viewer_data([walled], periodic=[False] * 3),
+        "large": viewer_data([walled], periodic=[False] * 3, limit_bytes=100),
     }
     return write_page(tmp_path_factory.mktemp("viewed"), views)
 
@@ -72,10 +72,17 @@ def put(driver, name, value, figure="view"):
     at_rest(driver, figure)
 
 
+def half_height(cell, image):
+    """Return half of what the view shows, from below to above: the cell and a rim of a tenth."""
+    right, up, _ = 0.55 * np.abs(AXES @ np.transpose(cell)).sum(axis=1)
+    height, width = (size + 6 for size in image.shape[:2])
+    return max(up, right * height / width)
+
+
 def per_mm(image):
     """Return the pixels of a millimetre in the first view."""
     # The rim that the picture goes without is part of what the view fills.
-    return (image.shape[0] + 6) / 2 / (0.8 * EDGE * 1e3)
+    return (image.shape[0] + 6) / 2 / half_height(CUBE * 1e3, image)
 
 
 def at(image, place):

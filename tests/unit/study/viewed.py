@@ -17,22 +17,23 @@ PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>grai
 <div style="height: 60rem"></div>
 {% endfor %}</body></html>"""
 EDGE = 10e-3
+CUBE = EDGE * np.eye(3)
 
 
 def state(positions, radius, *, number=0, pairs=(), force=(), walls=(), generation=None, **others):
-    """Return a state of grains at places in millimetres."""
+    """Return a state of grains at places in millimetres; walls: grain, direction, force."""
     radius = np.asarray(radius, dtype=float) * 1e-3
     ends = np.array(pairs, dtype=int).reshape(-1, 2)
-    at_walls = np.array(walls, dtype=float).reshape(-1, 3)
+    at_walls = np.array(walls, dtype=float).reshape(-1, 5)
     values = {
         "energy": np.geomspace(1e-9, 1e-4, radius.size),
         "pressure": np.geomspace(1e6, 1e3, radius.size),
+        "cell": CUBE,
         **others,
     }
     return ViewerState(
         state=number,
         label="loading",
-        edge=EDGE,
         solid_fraction=0.25 + number / 10,
         mean_stress=1e6 * (1 + number),
         positions=np.asarray(positions, dtype=float) * 1e-3,
@@ -41,8 +42,8 @@ def state(positions, radius, *, number=0, pairs=(), force=(), walls=(), generati
         j=ends[:, 1],
         force=np.asarray(force, dtype=float),
         wall_grain=at_walls[:, 0].astype(int),
-        wall=at_walls[:, 1].astype(int),
-        wall_force=at_walls[:, 2],
+        wall_direction=at_walls[:, 1:4],
+        wall_force=at_walls[:, 4],
         generation=generation,
         **values,
     )

@@ -49,16 +49,73 @@ const branchcrushData = (() => {
     const pressure = decoded(take(n), scales.pressure), generation = take(n);
     const i = index(row.contacts), j = index(row.contacts);
     const force = decoded(take(row.contacts), scales.force);
-    const wallGrain = index(row.walls), wall = take(row.walls);
+    const wallGrain = index(row.walls);
+    const wallDirection = [0, 1, 2].map(() => Float64Array.from(take(row.walls), (k) => 2 * k / STEPS - 1));
     const wallForce = decoded(take(row.walls), scales.force);
     return { row, x, y, z, radius, energy, pressure, generation, i, j, force,
-      wallGrain, wall, wallForce };
+      wallGrain, wallDirection, wallForce };
+  }
+
+  const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  const cross = (u, v) => [0, 1, 2].map((k) =>
+    u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+  // So many times each edge of the cell.
+  const along = (cell, times) => [0, 1, 2].map((k) =>
+    times[0] * cell[0][k] + times[1] * cell[1][k] + times[2] * cell[2][k]);
+  const SIGNS = [-1, 1];
+  const SHIFTS = [-1, 0, 1].flatMap((a) => [-1, 0, 1].flatMap((b) => [-1, 0, 1].map((c) => [a, b, c])));
+
+  // Both ends of the twelve edges of a cell, about its middle.
+  function box(cell) {
+    const ends = [];
+    for (let axis = 0; axis < 3; axis++)
+      for (const a of SIGNS) for (const b of SIGNS) for (const c of SIGNS) {
+        const times = [0, 0, 0];
+        times[axis] = c / 2; times[(axis + 1) % 3] = a / 2; times[(axis + 2) % 3] = b / 2;
+        ends.push(...along(cell, times));
+      }
+    return Float32Array.from(ends);
+  }
+
+  const volume = (cell) => dot(cell[0], cross(cell[1], cell[2]));
+
+  // Edge of the cube of a cell's volume.
+  function size(cell) {
+    return Math.cbrt(Math.abs(volume(cell)));
+  }
+
+  // Width of a cell along a direction of unit length.
+  function width(cell, direction) {
+    return cell.reduce((sum, vector) => sum + Math.abs(dot(vector, direction)), 0);
+  }
+
+  // Returns the shortest image of a vector in a cell, and whether it is another one.
+  function nearest(cell, periodic) {
+    const reciprocal = [0, 1, 2].map((k) =>
+      cross(cell[(k + 1) % 3], cell[(k + 2) % 3]).map((v) => v / volume(cell)));
+    // Nothing is shorter than half of the least distance of two faces. Beyond it the image of rounded
+    // shares need not be the shortest, in a cell that is much tilted.
+    const sure = Math.min(...reciprocal.map((r) => 1 / dot(r, r))) / 4;
+    const beside = SHIFTS.filter((shift) => shift.every((n, k) => !n || periodic[k]))
+      .map((shift) => [shift, along(cell, shift)]);
+    return (d) => {
+      const jumps = reciprocal.map((r, k) => (periodic[k] ? -Math.round(dot(d, r)) : 0));
+      const rounded = along(cell, jumps).map((v, k) => v + d[k]);
+      if (dot(rounded, rounded) <= sure) return [rounded, jumps.some(Boolean)];
+      let image = rounded, through = jumps.some(Boolean);
+      for (const [shift, vector] of beside) {
+        const other = rounded.map((v, k) => v + vector[k]);
+        if (dot(other, other) < dot(image, image) * (1 - 1e-6))
+          [image, through] = [other, shift.some((n, k) => n + jumps[k])];
+      }
+      return [image, through];
+    };
   }
 
   // From the centre of the first grain to that of the second, through the face where they touch;
   // the half beyond a face is drawn from the other side.
   function chains(header, s) {
-    const ends = [], widths = [], edge = s.row.edge_m;
+    const ends = [], widths = [], shortest = nearest(s.row.cell_m, header.periodic);
     const largest = header.scales.force ? header.scales.force[1] : 1;
     const add = (x, y, z, dx, dy, dz, force) => {
       ends.push(x, y, z, x + dx, y + dy, z + dz);
@@ -66,18 +123,15 @@ const branchcrushData = (() => {
     };
     const p = [s.x, s.y, s.z];
     s.i.forEach((a, k) => {
-      const b = s.j[k], d = p.map((c) => c[b] - c[a]);
-      const jumps = d.map((v) => (header.periodic ? Math.round(v / edge) : 0));
-      if (!jumps.some(Boolean)) return add(s.x[a], s.y[a], s.z[a], ...d, s.force[k]);
-      const h = d.map((v, axis) => (v - jumps[axis] * edge) / 2);
+      const b = s.j[k], [d, through] = shortest(p.map((c) => c[b] - c[a]));
+      if (!through) return add(s.x[a], s.y[a], s.z[a], ...d, s.force[k]);
+      const h = d.map((v) => v / 2);
       add(s.x[a], s.y[a], s.z[a], ...h, s.force[k]);
       add(s.x[b], s.y[b], s.z[b], ...h.map((v) => -v), s.force[k]);
     });
-    s.wallGrain.forEach((a, k) => {
-      const axis = s.wall[k] >> 1, side = s.wall[k] % 2 ? 0.5 : -0.5, d = [0, 0, 0];
-      d[axis] = side * edge - p[axis][a];
-      add(s.x[a], s.y[a], s.z[a], ...d, s.wallForce[k]);
-    });
+    // To the surface of the grain, which touches the wall.
+    s.wallGrain.forEach((a, k) =>
+      add(s.x[a], s.y[a], s.z[a], ...s.wallDirection.map((n) => n[k] * s.radius[a]), s.wallForce[k]));
     return { ends: Float32Array.from(ends), force: Float32Array.from(widths) };
   }
 
@@ -134,5 +188,5 @@ const branchcrushData = (() => {
     return `${(value / 10 ** power).toPrecision(2)}·10${power < 0 ? "⁻" : ""}${up}`;
   }
 
-  return { words, state, chains, colours, bar, number, MODES, GENERATIONS, GENERATION_WORDS, NONE };
+  return { words, state, box, size, width, chains, colours, bar, number, MODES, GENERATIONS, GENERATION_WORDS, NONE };
 })();

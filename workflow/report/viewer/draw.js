@@ -142,13 +142,13 @@ const branchcrushDraw = (() => {
       return vao;
     }
 
-    for (const name of ["places", "colours", "ends", "forces", "cube"]) fill(name, new Float32Array(0));
+    for (const name of ["places", "colours", "ends", "forces", "box"]) fill(name, new Float32Array(0));
     const F = gl.FLOAT, U = gl.UNSIGNED_BYTE;
     const grainLayout = layout(grains, [["centre", "places", 3, F, 16, 0], ["radius", "places", 1, F, 16, 12],
       ["colour", "colours", 3, U, 0, 0]]);
     const chainLayout = layout(chains, [["from", "ends", 3, F, 24, 0], ["to", "ends", 3, F, 24, 12],
       ["force", "forces", 1, F, 0, 0]]);
-    const edgeLayout = layout(edges, [["centre", "cube", 3, F, 0, 0]]);
+    const edgeLayout = layout(edges, [["centre", "box", 3, F, 0, 0]]);
 
     function common(used, view) {
       gl.useProgram(used.made);
@@ -206,15 +206,8 @@ const branchcrushDraw = (() => {
         for (let k = 0; k < count.grains; k++) places.set([s.x[k], s.y[k], s.z[k], s.radius[k]], 4 * k);
         needSquares(count.grains);
         fillSquares("places", places, 4);
-        const h = s.row.edge_m / 2, corners = [];
-        for (let axis = 0; axis < 3; axis++)
-          for (const a of [-h, h]) for (const b of [-h, h]) for (const c of [-h, h]) {
-            const p = [0, 0, 0];
-            p[axis] = c; p[(axis + 1) % 3] = a; p[(axis + 2) % 3] = b;
-            corners.push(...p);
-          }
-        fill("cube", Float32Array.from(corners));
       },
+      setBox: (ends) => fill("box", ends),
       setColours: (colours) => fillSquares("colours", colours, 3),
       setChains(chain) {
         count.chains = chain.force.length;

@@ -64,6 +64,7 @@
     function show() {
       shown = D.state(header, numbers, Number(slider.value));
       painter.setGrains(shown);
+      painter.setBox(D.box(shown.row.cell_m));
       const chains = D.chains(header, shown);
       const largest = chains.force.reduce((a, b) => Math.max(a, b), 0);
       shown.largest = largest * (header.scales.force ? header.scales.force[1] : 0);
@@ -128,19 +129,22 @@
       if (!width || !height) return;
       const size = [Math.round(width * by), Math.round(height * by)];
       if (canvas.width !== size[0] || canvas.height !== size[1]) [canvas.width, canvas.height] = size;
-      const edge = Math.max(shown.row.edge_m, header.states.at(-1).edge_m);
-      // Metres to half the height of the view.
-      const reach = 0.8 * edge / camera.zoom / Math.min(1, width / height);
+      const cell = shown.row.cell_m;
+      // Metres to half the height of the view: in the first one the cell has a rim about it.
+      const [right, up] = axes(turned(FIRST)).map((n) =>
+        0.55 * Math.max(D.width(cell, n), D.width(header.states.at(-1).cell_m, n)));
+      const reach = Math.max(up, right * height / width) / camera.zoom;
       const turn = turned(camera), style = getComputedStyle(figure);
+      const across = [0, 1, 2].map((k) => Number(k === Number(axis.value)));
       const n = axis.value === "" ? null : [0, 1, 2].map((k) => turn[3 * Number(axis.value) + k]);
       // Of the two sides the one toward the eye is taken away.
       const side = n && n[2] < 0 ? -1 : 1;
       const started = performance.now();
       painter.draw({
         turn, scale: [height / width / reach, 1 / reach], deep: 0.35 / shown.row.span_m,
-        cut: n ? [...n.map((v) => side * v), side * Number(cut.value) * shown.row.edge_m] : [0, 0, 0, 1],
+        cut: n ? [...n.map((v) => side * v), side * Number(cut.value) * D.width(cell, across)] : [0, 0, 0, 1],
         grains: control("grains").checked, chains: control("chains").checked,
-        widest: 0.012 * shown.row.edge_m, pixel: 2 * reach / size[1],
+        widest: 0.012 * D.size(cell), pixel: 2 * reach / size[1],
         line: colour(style, "--soft"), chain: colour(style, "--chain"),
       });
       painter.finish();
@@ -237,6 +241,11 @@
   function turned({ turn, tilt }) {
     const [c, s, ct, st] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
     return Float32Array.of(c, -st * s, ct * s, s, st * c, -ct * c, 0, ct, st);
+  }
+
+  // The same as rows: right, up, toward the eye.
+  function axes(turn) {
+    return [0, 1, 2].map((row) => [0, 1, 2].map((k) => turn[3 * k + row]));
   }
 
   function colour(style, name) {
