@@ -14,7 +14,7 @@ import pytest
 from matplotlib import image
 
 from branchcrush.files.tables import read_json, read_table
-from tests.pages import said
+from tests.pages import lost_links, said
 from tests.pictures import is_whole
 
 SEED = 3
@@ -116,6 +116,8 @@ def test_the_page_shows_every_figure_and_no_figure_is_blank(breaking):
     # And the still picture of the view in three dimensions.
     assert page.count("data:image/png;base64,") == len(FIGURES) + 1
     assert not re.search(r"nan\b|None", said(page))
+    # Of this sample the page of crushing alone was asked for.
+    assert set(lost_links(breaking.folder / "results/crushing.html")) <= {"report.html"}
     for figure in FIGURES:
         path = breaking.folder / f"results/figures/breaking/{figure}.png"
         assert is_whole(path), figure

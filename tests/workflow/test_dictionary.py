@@ -10,6 +10,7 @@ import pytest
 
 from branchcrush.files.dictionary import result_files
 from branchcrush.files.tables import read_json
+from tests.pages import lost_links
 
 WHERE = "src/branchcrush/files/meanings"
 
@@ -104,6 +105,8 @@ def test_a_page_of_measured_materials_needs_no_packing_and_shows_them(measured_r
     page = (measured_results / "measured.html").read_text(encoding="utf-8")
     assert "quick" in page and page.count("data:image/png") == 2
     assert "1 row of unloading or reloading left out of the fit (line 7)" in page
+    # Of this study the page of materials alone was asked for.
+    assert set(lost_links(measured_results / "measured.html")) <= {"report.html"}
 
 
 def test_every_file_is_in_the_dictionary(any_results):

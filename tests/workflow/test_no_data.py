@@ -8,7 +8,7 @@ from matplotlib import image
 from branchcrush.files.dictionary import result_files
 from branchcrush.files.tables import read_json, read_table
 from branchcrush.study.summary import summary
-from tests.pages import said
+from tests.pages import lost_links, said
 
 NO_DATA = """\
 samples:
@@ -96,6 +96,7 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
     # Grading, packing and path of both; certificate, branches, network of the grains of one size.
     assert page.count("data:image/png;base64,") == 10 + 6
     assert not re.search(r"\bnan\b|\bNone\b|https?://", said(page))
+    assert lost_links(no_data / "report.html") == []
     for name in ("alike", "loose"):
         figures = list((no_data / "figures" / name).glob("*.png"))
         assert len(figures) == 18

@@ -10,7 +10,7 @@ from matplotlib import image
 
 from branchcrush.files.tables import read_json, read_packing, read_table
 from branchcrush.study.summary import summary
-from tests.pages import said
+from tests.pages import lost_links, said
 
 SEEDS = (3, 5)
 FIGURES = (
@@ -267,6 +267,7 @@ def test_the_report_shows_every_figure_and_the_exponent(finished):
     assert page.count("data:image/png;base64,") == len(FIGURES) + 1
     assert f"n = {fit['exponent']:.2f}" in page
     assert not re.search(r"\bnan\b|\bNone\b|https?://", said(page))
+    assert lost_links(finished.folder / "results" / "report.html") == []
 
 
 def test_the_summary_names_exponent_interval_and_figures(finished):
