@@ -51,7 +51,9 @@ gallery: $(READY) ## every example, and the figures and tables that their pages 
 	    for figure in fig3_grading fig5_energy_split loading_path certificate; do \
 	      mkdir -p examples/$$name/figures; \
 	      $(SHRINK) examples/$$name/results/figures/$$sample/$$figure.png examples/$$name/figures/$${sample}_$$figure.png; \
-	    done; done; \
+	    done; \
+	    if test -f examples/$$name/results/figures/$$sample/crushed_line.png; then \
+	      $(SHRINK) examples/$$name/results/figures/$$sample/crushed_line.png examples/$$name/figures/$${sample}_crushed_line.png; fi; done; \
 	  for material in $$(ls examples/$$name/results/figures/measured 2>/dev/null); do for figure in gradings compression; do \
 	    $(SHRINK) examples/$$name/results/figures/measured/$$material/$$figure.png examples/$$name/figures/$${material}_$$figure.png; done; done; \
 	  cp examples/$$name/results/comparison.csv examples/$$name/comparison.csv; done
