@@ -8,7 +8,7 @@ from branchcrush.lammps.files import read_dump
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
-from branchcrush.records import recorded_job
+from branchcrush.records import checked_dump, recorded_job
 from branchcrush.study.viewer_states import compression_grains, dumped_grains, packing_view
 
 with recorded_job(snakemake):
@@ -34,7 +34,7 @@ with recorded_job(snakemake):
     # Every state has its grains in the dump, where that is kept.
     dump = Path(files.path[0]).with_name("particles.dump.gz")
     grains = (
-        dumped_grains(read_dump(dump), path["state"])
+        dumped_grains(read_dump(checked_dump(dump, snakemake)), path["state"])
         if dump.exists()
         else compression_grains(packing, compressed, path)
     )

@@ -123,7 +123,7 @@ class Packing(Place):
         file = self.package.folder / self.filled(Packing.pattern) / "packing.npz"
         if not file.is_file():
             raise ResultsError(f"{file} is not there: rule compression writes it")
-        return read_packing(file)
+        return read_packing(self.package.checked(file))
 
     def _grains_at(self, number: int) -> pd.DataFrame | None:
         """Return centre and radius of each grain in a state; None where they are not kept."""

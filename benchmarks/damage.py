@@ -1,0 +1,333 @@
+"""What becomes of files of a study that are damaged: none may pass in silence; and what it costs.
+
+Damage is done to a finished study, one file at a time, and put right again. It is told by the job
+that reads the file, as the workflow starts it; by the results API, where it opens such a file; and
+by `branchcrush verify`, which reads all. Which bits are flipped is drawn by a seeded generator.
+"""
+
+import contextlib
+import io
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import warnings
+from collections import Counter
+from pathlib import Path
+from types import SimpleNamespace
+
+import branchcrush
+from branchcrush.command.main import main
+from branchcrush.errors import ResultsError
+from branchcrush.files.digests import Digests, digests_of
+from branchcrush.files.intact import check_inputs
+from branchcrush.files.made import is_record, read_record, record_bytes
+from branchcrush.records import recorded_job
+
+ROOT = Path(__file__).resolve().parents[1]
+CONFIG = """\
+samples:
+  sand:
+    grading: {form: uniform, basis: number, size: radius, unit: m, min: 5.0e-4, max: 1.0e-3}
+    grains: 30
+    allow_unrepresentative: true
+    loading: {edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 4, quality: draft}
+    seeds: 2
+    refined_seeds: 1
+  breaking:
+    grading: {form: uniform, basis: number, size: diameter, unit: mm, min: 0.8, max: 1.2}
+    grains: 24
+    allow_unrepresentative: true
+    loading: {solid_fraction: 0.6, approach_solid_fraction: 0.42, states: 5, quality: draft}
+    breakage:
+      strength: 1.0e7
+      weibull_modulus: 3
+      unit: mm
+      reference_diameter: 1.0
+      smallest_diameter: 0.7
+      fragments: 6
+      growth_stages: 2
+    seeds: 1
+    refined_seeds: 0
+energy_split: {resamples: 100}
+figures: {dpi: 60}
+"""
+
+
+class Interrupt(Exception):
+    """Ends a job that was only to look at its inputs."""
+
+
+class _Named(list):
+    """Files or values by name, as Snakemake gives them to a script."""
+
+    def __init__(self, values):
+        super().__init__(values.values())
+        self.__dict__.update(values)
+
+    def items(self):
+        return self.__dict__.items()
+
+
+def files_of(folder):
+    """Return all files of the results in a folder, below it, but for hidden ones."""
+    found = (path for path in Path(folder, "results").rglob("*") if path.is_file())
+    return sorted(str(path.relative_to(folder)) for path in found if path.name[0] != ".")
+
+
+def kind_of(path):
+    """Return what is said of a file in the figures: the end of its name, or that it is a record."""
+    return "record" if is_record(path) else Path(path).suffix.removeprefix(".")
+
+
+class Damaged:
+    """A finished study whose files are damaged, and who tells of it.
+
+    Parameters
+    ----------
+    folder : path-like
+        It holds `results`.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.files = files_of(folder)
+        records = {path: read_record(self.folder / path) for path in self.files if is_record(path)}
+        self.jobs = records
+        # The jobs that read each file, by the path of their record; of a record, what it tells of.
+        self.readers = {}
+        for path, record in records.items():
+            for read in record["inputs"]:
+                self.readers.setdefault(read, []).append(path)
+        for path, record in records.items():
+            of_outputs = [self.readers.get(told, []) for told in record["outputs"]]
+            self.readers[path] = [reader for readers in of_outputs for reader in readers]
+        self.opened = self._opened()
+
+    @contextlib.contextmanager
+    def changed(self, path, content):
+        """Let a file hold something else, or be away where the content is None."""
+        file = self.folder / path
+        before = file.read_bytes()
+        file.unlink()
+        try:
+            if content is not None:
+                file.write_bytes(content)
+            yield
+        finally:
+            file.write_bytes(before)
+
+    def job_says(self, record_path):
+        """Return what a job says that begins now, as the workflow starts it; "" where it begins."""
+        record, said = self.jobs[record_path], io.StringIO()
+        outputs = {f"output{k}": path for k, path in enumerate(record["outputs"])}
+        made = SimpleNamespace(
+            rule=record["rule"],
+            wildcards=_Named(record["wildcards"]),
+            params=_Named({**record["params"], "code": record["code"]}),
+            input=_Named({f"input{k}": path for k, path in enumerate(record["inputs"])}),
+            output=_Named({**outputs, "record": record_path}),
+            log=[str(self.folder / "logs" / "damage.log")],
+        )
+        with contextlib.chdir(self.folder), contextlib.redirect_stderr(said):
+            try:
+                with recorded_job(made):
+                    raise Interrupt
+            except Interrupt:
+                return ""
+            except SystemExit:
+                return said.getvalue()
+
+    def api_says(self, path):
+        """Return what the results API says when it opens a file; "" where it says nothing."""
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")
+            try:
+                self.opened[path](branchcrush.open_study(self.folder))
+            except ResultsError as error:
+                return f"{error}\n"
+        return "".join(f"{warning.message}\n" for warning in warned)
+
+    def verify_says(self):
+        """Return exit code and lines of `branchcrush verify`."""
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+            code = main(["verify", str(self.folder)])
+        return code, said.getvalue().splitlines()
+
+    def told_by(self, path):
+        """Return who tells of a damaged file, with what they say, but for `verify`."""
+        said = {}
+        if readers := self.readers.get(path):
+            said["job"] = self.job_says(readers[0])
+        if path in self.opened:
+            said["api"] = self.api_says(path)
+        return said
+
+    def _opened(self):
+        """Return by its path how each file is opened by the results API."""
+        opened = {"results/datapackage.json": lambda study: study.provenance}
+        study = branchcrush.open_study(self.folder)
+        places = [(lambda study: study, study)]
+        for name, sample in study.samples.items():
+            places.append((lambda study, name=name: study[name], sample))
+            for seed, packing in sample.seeds.items():
+                of = lambda study, name=name, seed=seed: study[name].seed(seed)  # noqa: E731
+                places.append((of, packing))
+                if packing.crushed:
+                    places.append((lambda study, of=of: of(study).crushed, packing.crushed))
+                npz = f"results/{packing.prefix}packing.npz"
+                opened[npz] = lambda study, of=of: of(study).loose
+        for of, place in places:
+            for name, result in place.results.items():
+                for end, file in result.paths.items():
+                    part = "summary" if end == ".json" else "data"
+                    if file.is_file():
+                        opened[str(file.relative_to(self.folder))] = (
+                            lambda study, of=of, name=name, part=part: getattr(
+                                of(study).results[name], part
+                            )
+                        )
+        return opened
+
+
+def flipped(content, rng):
+    """Return bytes of which one bit is another."""
+    place = rng.randrange(8 * len(content))
+    changed = bytearray(content)
+    changed[place // 8] ^= 1 << place % 8
+    return bytes(changed)
+
+
+def run(flips=2000, seed=1, packings=1000):
+    """Return who tells of flipped bits, and what the checks cost.
+
+    Parameters
+    ----------
+    flips : int
+        Bits that are flipped, each in a file of its own turn.
+    seed : int
+        Of the generator that draws files and bits.
+    packings : int
+        Of the study of which the cost is measured too.
+
+    Returns
+    -------
+    dict
+        `files` and `flips` by kind of file, `told` by whom, and those that are `silent`; what the
+        checks of all jobs take, beside the study (`share`); the same of many packings.
+    """
+    with tempfile.TemporaryDirectory(prefix="branchcrush-") as scratch:
+        scratch = Path(scratch)
+        (scratch / "config.yaml").write_text(CONFIG, encoding="utf-8")
+        cpu, wall = _studied(scratch)
+        damaged = Damaged(scratch)
+        return {
+            **_flips(damaged, flips, random.Random(seed)),
+            "study_wall_seconds": wall,
+            "study_cpu_seconds": cpu,
+            **_share(damaged, cpu),
+            "many": _many(damaged, packings),
+        }
+
+
+def _studied(folder):
+    """Run a study, and return the seconds of the processor and on the clock that it took."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
+    environment["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    before, start = os.times(), time.perf_counter()
+    command = [sys.executable, "-m", "snakemake", "--cores", "2"]
+    done = subprocess.run(
+        [*command, "--snakefile", str(ROOT / "Snakefile")],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode:
+        raise RuntimeError(done.stdout + done.stderr)
+    after, wall = os.times(), time.perf_counter() - start
+    used = after.children_user + after.children_system
+    return used - before.children_user - before.children_system, wall
+
+
+def _flips(damaged, flips, rng):
+    counts, told, silent, unnamed = Counter(), Counter(), [], []
+    turns = [damaged.files[k % len(damaged.files)] for k in range(flips)]
+    for path in turns:
+        content = flipped((damaged.folder / path).read_bytes(), rng)
+        counts[kind_of(path)] += 1
+        with damaged.changed(path, content):
+            said = damaged.told_by(path)
+            code, lines = damaged.verify_says()
+        said["verify"] = "\n".join([*(line for line in lines if Path(path).name in line), ""])
+        if code != 1 or not all(said.values()):
+            silent.append(path)
+        if not all(Path(path).name in one for one in said.values()):
+            unnamed.append(path)
+        told.update(said.keys())
+    return {
+        "files": dict(Counter(map(kind_of, damaged.files))),
+        "flips": dict(counts),
+        "told": dict(told),
+        "silent": silent,
+        "unnamed": unnamed,
+    }
+
+
+def _share(damaged, cpu):
+    """Return what the checks of all jobs take of the processor, read from the disk's cache."""
+    start = time.process_time()
+    for path, record in damaged.jobs.items():
+        with contextlib.chdir(damaged.folder):
+            digests = digests_of(record["inputs"], Digests("cost", trust=False))
+            check_inputs({**record, "inputs": digests}, path)
+    seconds = time.process_time() - start
+    start = time.process_time()
+    damaged.verify_says()
+    return {
+        "jobs": len(damaged.jobs),
+        "check_seconds": seconds,
+        "share": seconds / cpu,
+        "verify_seconds": time.process_time() - start,
+    }
+
+
+def _many(damaged, packings):
+    """Return what the check of one job takes that reads many packings, each of the paper's size."""
+    seed = next(path for path in damaged.jobs if re.search(r"sand/seed_1/made\.json$", path))
+    record = damaged.jobs[seed]
+    names = ("packing.npz", "path.csv", "contacts.parquet", "wall_contacts.parquet")
+    with tempfile.TemporaryDirectory(prefix="branchcrush-") as scratch, contextlib.chdir(scratch):
+        # Contacts of 1000 grains in 13 states, which none compresses further.
+        source = damaged.folder / "results/sand/seed_1"
+        big = random.Random(0).randbytes(2_000_000)
+        for k in range(1, packings + 1):
+            folder = Path("results", "sand", f"seed_{k}")
+            folder.mkdir(parents=True)
+            for name in names:
+                shutil.copy(source / name, folder / name)
+            (folder / "contacts.parquet").write_bytes(big)
+            paths = [str(folder / name) for name in names]
+            told = {**record, "wildcards": {"sample": "sand", "seed": str(k)}}
+            told.pop("sha256")
+            told |= {"outputs": digests_of(paths, Digests("many")), "inputs": {}, "beside": {}}
+            (folder / "made.json").write_bytes(record_bytes(told))
+        paths = [f"results/sand/seed_{k}/{name}" for k in range(1, packings + 1) for name in names]
+        start = time.process_time()
+        digests = digests_of(paths, Digests("cost", trust=False))
+        read = time.process_time() - start
+        job = {"wildcards": {"sample": "sand"}, "params": {}, "inputs": digests}
+        check_inputs(job, "results/sand/made/fit.json")
+        seconds = time.process_time() - start
+    return {
+        "packings": packings,
+        "files": len(paths),
+        "megabytes": packings * len(big) / 1e6,
+        "digest_seconds": read,
+        "check_seconds": seconds,
+    }
