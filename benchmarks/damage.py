@@ -131,7 +131,7 @@ class Damaged:
             params=_Named({**record["params"], "code": record["code"]}),
             input=_Named({f"input{k}": path for k, path in enumerate(record["inputs"])}),
             output=_Named({**outputs, "record": record_path}),
-            log=[str(self.folder / "logs" / "damage.log")],
+            log=[str(self.folder / ".snakemake" / "damage.log")],
         )
         with contextlib.chdir(self.folder), contextlib.redirect_stderr(said):
             try:

@@ -41,10 +41,11 @@ def record_bytes(record: Mapping[str, Any]) -> bytes:
 
     Examples
     --------
-    >>> print(record_bytes({"rule": "fit"}).decode()[:50])
+    >>> print(record_bytes({"rule": "fit"}).decode(), end="")
     {
      "rule": "fit",
-     "sha256": "fb1df0f4ce7fa4
+     "sha256": "62f383ad77dc88169b1..."
+    }
     """
     body = json.dumps(record, indent=1, ensure_ascii=False).encode().removesuffix(b"\n}")
     return body + _SEAL + hashlib.sha256(body).hexdigest().encode() + _END

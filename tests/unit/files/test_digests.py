@@ -66,9 +66,12 @@ def test_other_content_of_the_same_size_and_time_is_seen():
 
 def test_what_a_disk_changed_by_itself_is_read_by_whoever_does_not_trust_notes(monkeypatch):
     noted()
-    status = os.stat("results/a.csv")
+    status, real = os.stat("results/a.csv"), os.stat
     Path("results/a.csv").write_text("abd")
-    monkeypatch.setattr("branchcrush.files.digests.os.stat", lambda *of, **how: status)
+    monkeypatch.setattr(
+        "branchcrush.files.digests.os.stat",
+        lambda path, **how: status if path == "results/a.csv" else real(path, **how),
+    )
     assert Digests("job").of("results/a.csv") == ABC
     doubtful = Digests("job", trust=False)
     assert doubtful.of("results/a.csv") == ABD
