@@ -61,11 +61,11 @@ def of_each_kind(damaged):
     """One file of each that the dictionary names, of those that a job or the API reads."""
     kinds = {}
     for path in damaged.files:
-        if damaged.readers.get(path) or path in damaged.opened:
+        if not is_record(path) and (damaged.readers.get(path) or path in damaged.opened):
             below = path.removeprefix("results/")
             kind = next(kind.path for kind in result_files() if kind.matches(below))
             kinds.setdefault(kind, path)
-    return set(kinds.values())
+    return list(kinds.values())
 
 
 def swapped(path, files):
@@ -90,24 +90,26 @@ def test_a_sound_study_is_sound_for_all(damaged, capsys):
 def test_every_damaged_result_is_told_by_all_that_read_it(damaged, of_each_kind, damage):
     rng = random.Random(damage)
     results = [path for path in damaged.files if not is_record(path)]
+    contents = {}
+    for path in results:
+        before = (damaged.folder / path).read_bytes()
+        if damage == "another's":
+            contents[path] = (damaged.folder / swapped(path, damaged.files)).read_bytes()
+            if contents[path] == before:  # as the empty table of walls of two seeds
+                contents[path] += b" "
+        else:
+            contents[path] = None if damage == "removed" else DAMAGES[damage](before, rng)
     told, wrong = 0, []
+    # What is not there, Snakemake finds for the jobs, and the API says in its own words.
+    for path in of_each_kind if damage != "removed" else ():
+        with damaged.changed(path, contents[path]):
+            for who, said in damaged.told_by(path).items():
+                told += 1
+                if said.count("\n") != 1 or f"/{Path(path).name} " not in said:
+                    wrong.append((who, path, said))
     with contextlib.ExitStack() as all_at_once:
         for path in results:
-            before = (damaged.folder / path).read_bytes()
-            if damage == "another's":
-                content = (damaged.folder / swapped(path, damaged.files)).read_bytes()
-                if content == before:  # as the empty table of walls of two seeds
-                    content += b" "
-            else:
-                content = None if damage == "removed" else DAMAGES[damage](before, rng)
-            # What is not there, Snakemake finds for the jobs, and the API says in its own words.
-            if damage != "removed" and path in of_each_kind:
-                with damaged.changed(path, content):
-                    for who, said in damaged.told_by(path).items():
-                        told += 1
-                        if said.count("\n") != 1 or f"/{Path(path).name} " not in said:
-                            wrong.append((who, path, said))
-            all_at_once.enter_context(damaged.changed(path, content))
+            all_at_once.enter_context(damaged.changed(path, contents[path]))
         code, lines = damaged.verify_says()
     assert wrong == []
     assert told > 60 or damage == "removed"
@@ -258,9 +260,12 @@ def test_other_versions_and_seeds_that_are_left_are_no_faults(copy, capsys):
     resealed(record, branchcrush="0.0.9")
     shutil.copytree(copy / "tiny/seed_5", copy / "tiny/seed_7")
     record = copy / "tiny/seed_7/made.json"
-    outputs = read_record(record)["outputs"].items()
-    moved = {path.replace("seed_5", "seed_7"): digest for path, digest in outputs}
-    resealed(record, wildcards={"sample": "tiny", "seed": "7"}, outputs=moved, beside={})
+    moved = {
+        part: {path.replace("seed_5", "seed_7"): digest for path, digest in told.items()}
+        for part, told in read_record(record).items()
+        if part in ("outputs", "beside")
+    }
+    resealed(record, wildcards={"sample": "tiny", "seed": "7"}, **moved)
     code, printed, faults = verified(copy, capsys)
     assert (code, faults) == (0, [])
     assert f"made by branchcrush 0.0.9, 0.1.0; this is {branchcrush.__version__}\n" in printed
