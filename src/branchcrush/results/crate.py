@@ -18,7 +18,18 @@ from branchcrush.files.tables import read_json
 from branchcrush.results.verification import CRATE, Verification, verify
 
 _PROFILE = "https://w3id.org/ro/wfrun/process/0.5"
-_NAMES = {"lammps": "LAMMPS", "python": "Python", "numpy": "NumPy", "scipy": "SciPy"}
+_VERSION = "1.1"
+_ADDRESSES = {
+    "lammps": "https://www.lammps.org",
+    "matplotlib": "https://matplotlib.org",
+    "mpi4py": "https://mpi4py.github.io",
+    "numpy": "https://numpy.org",
+    "pandas": "https://pandas.pydata.org",
+    "pyarrow": "https://arrow.apache.org",
+    "python": "https://www.python.org",
+    "scipy": "https://scipy.org",
+    "snakemake": "https://snakemake.github.io",
+}
 _NO_LICENCE = "No licence is stated: ask who made the study."
 
 
@@ -62,13 +73,20 @@ def write_crate(folder: str | PathLike[str], licence: str = "") -> Path:
     if not (found.folder / "datapackage.json").is_file():
         raise ResultsError(f"{found.folder} is of a study that has not been run to its end: run it")
     package = read_json(found.folder / "datapackage.json")
-    crate = ROCrate()
+    crate = ROCrate(version=_VERSION)
+    # Its words are those of schema.org of 2020, which had no such one.
+    crate.metadata.extra_terms["sha256"] = "http://schema.org/sha256"
     root = crate.root_dataset
     root["name"] = "Results of a branchcrush study: " + ", ".join(package["provenance"]["samples"])
     root["description"] = package["description"]
-    root["license"] = {"@id": licence} if licence.startswith("http") else licence or _NO_LICENCE
+    root["license"] = {"@id": licence} if licence else _NO_LICENCE
+    if licence:
+        named = {"@type": "CreativeWork", "name": licence}
+        crate.add(ContextEntity(crate, licence, properties=named))
     root["datePublished"] = date.today().isoformat()
     root["conformsTo"] = {"@id": _PROFILE}
+    profile = {"@type": "CreativeWork", "name": "Process Run Crate", "version": "0.5"}
+    crate.add(ContextEntity(crate, _PROFILE, properties=profile))
     root["additionalProperty"] = [
         {"@id": f"#machine/{name}"} for name in package["provenance"].get("machine", {})
     ]
@@ -129,8 +147,8 @@ def _entities(
                 "name": f"{record['rule']}{' of ' if words else ''}{words}",
                 "description": f"SHA-256 of the sources of the rule: {record['code']}",
                 "instrument": {"@id": "#branchcrush"},
-                "object": [{"@id": one} for one in [*read, "config.json"]],
-                "result": [{"@id": one} for one in [*result, place]],
+                "object": _linked([*read, "config.json"]),
+                "result": _linked([*result, place]),
             },
         )
     for path, digest in data.items():
@@ -143,8 +161,8 @@ def _entities(
     for name, version in software.items():
         yield (
             f"#{name}",
-            {"@type": "SoftwareApplication", "name": _NAMES.get(name, name),
-             "softwareVersion": version},
+            {"@type": "SoftwareApplication", "name": name, "softwareVersion": version,
+             "url": _ADDRESSES[name]},
         )  # fmt: skip
     yield (
         "#branchcrush",
@@ -157,6 +175,12 @@ def _entities(
     )
     for name, value in provenance.get("machine", {}).items():
         yield f"#machine/{name}", {"@type": "PropertyValue", "name": name, "value": value}
+
+
+def _linked(names):
+    """Return links to entities; of one alone no list, as the standard has it."""
+    links = [{"@id": name} for name in names]
+    return links if len(links) > 1 else links[0]
 
 
 def _data(path):
