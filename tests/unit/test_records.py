@@ -7,10 +7,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from branchcrush.errors import FitError
+from branchcrush.errors import FitError, ResultsError
 from branchcrush.files.made import read_record, record_bytes
 from branchcrush.records import (
     OutOfDate,
+    checked_dump,
     dumps_not_kept,
     kept_of_other_versions,
     lines_of,
@@ -302,6 +303,14 @@ def test_a_job_reads_what_the_disk_changed_without_a_trace(monkeypatch, capsys):
         lambda path, **how: status if path == PATH else real(path, **how),
     )
     assert "path.csv is not as its job left it" in stopped(fit(), capsys)
+
+
+def test_a_dump_that_a_job_reads_is_checked():
+    dump = Path("results/sand/pairs.dump.gz")
+    assert checked_dump(dump, as_script(fit())) == dump
+    dump.write_text("abe")
+    with pytest.raises(ResultsError, match=r"pairs.dump.gz is not as its job left it"):
+        checked_dump(dump, as_script(fit()))
 
 
 def test_many_wrong_inputs_are_one_line(capsys):

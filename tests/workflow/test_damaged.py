@@ -160,6 +160,32 @@ def test_hundreds_of_flipped_bits_are_all_told(damaged):
         record.write_bytes(content)
 
 
+@pytest.mark.parametrize(
+    ("rule", "path"),
+    [
+        ("energy_split", "results/tiny/jamming.csv"),
+        # No input of the job, which reads it where it is kept.
+        ("packing_figures", "results/tiny/seed_3/particles.dump.gz"),
+    ],
+)
+def test_a_job_that_snakemake_starts_ends_with_one_line(finished, tmp_path, rule, path):
+    """As on a cluster, after the run began; a run that begins would make the file anew."""
+    study = finished.copied(finished.folder, tmp_path / "study")
+    content = flipped((study.folder / path).read_bytes(), random.Random(1))
+    (study.folder / path).write_bytes(content)
+    only = ["--target-jobs", f"{rule}:sample=tiny", "--allowed-rules", rule]
+    run = study.snakemake(
+        "--mode", "subprocess", *only, "--force", f"results/tiny/made/{rule}.json"
+    )
+    line = (
+        f"branchcrush: {path} is not as its job left it (changed, cut or damaged): delete "
+        f"{Path(path).name} and run the study again\n"
+    )
+    said = run.stdout + run.stderr
+    assert run.returncode == 1 and said.count(line) == 1 and "Traceback" not in said
+    assert (study.folder / f"logs/tiny/{rule}.log").read_text().endswith(line)
+
+
 # --- what is whole, and not its own ---------------------------------------------------------------
 
 
