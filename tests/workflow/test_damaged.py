@@ -272,6 +272,14 @@ def test_what_is_missing_with_its_record_is_told(copy, capsys):
     assert "tiny/seed_5/path.csv is missing: run the study again" in verified(copy, capsys)[2]
 
 
+def test_what_a_run_was_not_asked_for_is_no_fault(copy, capsys):
+    (copy / "report.html").unlink()
+    (copy / "made/report.json").unlink()
+    code, printed, faults = verified(copy, capsys)
+    assert (code, faults) == (0, [])
+    assert "not made, or deleted with what told of them: 1 of rule report\n" in printed
+
+
 def test_files_without_a_record_are_told(copy, capsys):
     (copy / "tiny/seed_5/made.json").unlink()
     _, _, faults = verified(copy, capsys)

@@ -82,6 +82,11 @@ def verify(folder: str | PathLike[str]) -> Verification:
         faults.setdefault(file, fault)
     whole = [file for file in study.told_of() if file in study.there and file not in faults]
     notes = study.notes(listed)
+    # Of a run that was asked for some files only, as a module's.
+    never = [file for file in listed if file not in study.there and file not in faults]
+    if never:
+        rules = ", ".join(dict.fromkeys(listed[file] for file in never))
+        notes.append(f"not made, or deleted with what told of them: {len(never)} of rule {rules}")
     return Verification(study.folder, list(faults.values()), notes, len(whole), study.whole)
 
 
@@ -139,15 +144,16 @@ class _Study:
                     yield file, fault
 
     def missing(self, listed: dict[str, str]) -> Iterator[tuple[str, str]]:
-        """Yield what jobs left, what they read, or what a finished study has, and is not there."""
-        rules = dict(listed)
+        """Yield what jobs left or read, and is not there."""
+        rules: dict[str, str] = {}
         for record in self.whole.values():
             for path in record["outputs"]:
                 rules.setdefault(below_results(path, record["wildcards"])[1], record["rule"])
             root = f"{_root(record)}/"
             for path in record["inputs"]:
                 if path.startswith(root):
-                    rules.setdefault(path.removeprefix(root), "")
+                    below = path.removeprefix(root)
+                    rules.setdefault(below, listed.get(below, ""))
         for file, rule in rules.items():
             if file not in self.there:
                 writes = f" (rule {rule} writes it)" if rule else ""
