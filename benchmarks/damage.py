@@ -235,6 +235,20 @@ def run(flips=2000, seed=1, packings=1000):
         }
 
 
+def summary(result):
+    """Return what is shown of a result."""
+    told, many = result["told"], result["many"]
+    whom = ", ".join(f"{who} {number}" for who, number in told.items())
+    return [
+        f"{sum(result['flips'].values())} bits flipped in {sum(result['files'].values())} files, "
+        f"told by {whom}",
+        f"silent: {len(result['silent'])}; without the name of the file: {len(result['unnamed'])}",
+        f"checks of all {result['jobs']} jobs: {result['share']:.2%} of the study's processor time",
+        f"a job that reads {many['packings']} packings ({many['megabytes']:.0f} MB): "
+        f"{many['check_seconds']:.1f} s",
+    ]
+
+
 def _studied(folder):
     """Run a study, and return the seconds of the processor and on the clock that it took."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
