@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import branchcrush
-from benchmarks.damage import Damaged, flipped
+from benchmarks.damaged_study import Damaged, flipped
 from branchcrush.command.main import main
 from branchcrush.errors import ResultsError, ResultsWarning
 from branchcrush.files.dictionary import result_files
