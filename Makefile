@@ -23,7 +23,7 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview example gallery tutorial quality findings mixing crushing bench publish schema test lint docs lock clean own-environment
+.PHONY: help run preview verify example gallery tutorial quality findings mixing crushing bench publish schema test lint docs lock clean own-environment
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -33,6 +33,9 @@ run: $(READY) ## the study of config.yaml: results/, its figures and the exponen
 
 preview: $(READY) ## what the study of config.yaml will be, cost and take on this machine
 	@$(BIN)/branchcrush preview --cores $(CORES)
+
+verify: $(READY) ## every file of results/, held against what made it
+	@$(BIN)/branchcrush verify
 
 example: $(READY) ## one of examples/: make example NAME=standard_sand
 	@test -f "examples/$(NAME)/config.yaml" \

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from branchcrush import __version__
-from branchcrush.files.digests import Digests, digests_of
+from branchcrush.files.digests import Digests, digests_of, file_digest
+from branchcrush.files.intact import Records, check_inputs, refuse
+from branchcrush.files.made import below_results, read_record, record_bytes
 from branchcrush.files.replacing import replacing
 from branchcrush.jobs import job
 
@@ -24,6 +26,8 @@ KEPT_DUMPS = ("none", "last", "all")
 def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
 
+    Its inputs are read before, and held against the records of the jobs that made them.
+
     Parameters
     ----------
     snakemake : object
@@ -33,20 +37,50 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     ------
     list of str
         For paths of files that the job writes besides its outputs, and that may be deleted.
+
+    Raises
+    ------
+    SystemExit
+        For a `BranchcrushError`; one is an input that is not what its job left.
     """
     with job(snakemake.log[0]):
         beside: list[str] = []
-        digests = Digests(snakemake.rule)
-        # Before the job reads them: one that is edited meanwhile is another one the next time.
-        inputs = digests_of(map(str, snakemake.input), digests)
-        yield beside
+        digests = Digests(snakemake.rule, trust=False)
         record = _made_with(snakemake, snakemake.rule)
-        record["inputs"] = inputs
+        # Before the job reads them: one that is edited meanwhile is another one the next time.
+        record["inputs"] = digests_of(map(str, snakemake.input), digests)
+        check_inputs(json.loads(_as_text(record)), snakemake.output.record)
+        yield beside
         record["outputs"] = digests_of(_results(snakemake), digests)
         record["beside"] = digests_of(beside, digests)
         digests.note()
         with replacing(snakemake.output.record) as file:
-            file.write((json.dumps(record, indent=1, ensure_ascii=False) + "\n").encode())
+            file.write(record_bytes(record))
+
+
+def checked_dump(path: Path, snakemake: Any) -> Path:
+    """Return the path of a dump that a job reads, which is none of its inputs since it may go.
+
+    Parameters
+    ----------
+    path : Path
+        Of a file that is there.
+    snakemake : object
+        What Snakemake gives a script.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    ResultsError
+        When it is not as the job that wrote it left it.
+    """
+    wildcards = dict(snakemake.wildcards.items())
+    folder, _ = below_results(snakemake.output.record, wildcards)
+    refuse([Records(folder).fault(path.relative_to(folder).as_posix(), file_digest(path))])
+    return path
 
 
 def _made_with(made: Any, rule: str) -> dict[str, Any]:
@@ -65,38 +99,6 @@ def _made_with(made: Any, rule: str) -> dict[str, Any]:
 def _results(made):
     """Return the paths of a job's outputs but for its record."""
     return [str(path) for path in made.output if path != made.output.record]
-
-
-def read_record(path: str | os.PathLike[str]) -> dict[str, Any] | None:
-    """Return a record that `recorded_job` wrote, {} of a damaged one, None where there is none.
-
-    Parameters
-    ----------
-    path : path-like
-
-    Returns
-    -------
-    dict or None
-        branchcrush: the version; rule, wildcards: of the job; code: digest of the sources that its
-        script runs; params: the configuration that it used; inputs, outputs, beside: SHA-256 of
-        each file by its path, from the folder that the study ran in.
-
-    Examples
-    --------
-    >>> read_record("results/nothing/made/of.json") is None
-    True
-    """
-    try:
-        record = json.loads(Path(path).read_bytes())
-    except FileNotFoundError:
-        return None
-    except (OSError, ValueError):
-        return {}
-    kinds = {"code": str, "params": dict, "inputs": dict, "outputs": dict}
-    whole = isinstance(record, dict) and all(
-        isinstance(record.get(key), kind) for key, kind in kinds.items()
-    )
-    return record if whole else {}
 
 
 class OutOfDate(NamedTuple):
@@ -149,7 +151,9 @@ def _reason(made, digests):
         return f"its file {_name(missing[0])} is missing"
     now = _made_with(made, made.rule.name)
     if now["code"] != record["code"]:
-        return "its code changed"
+        made_by = record["branchcrush"]
+        update = "" if made_by == __version__ else f" from branchcrush {made_by} to {__version__}"
+        return f"its code changed{update}"
     if _as_text(now["params"]) != _as_text(record["params"]):
         return _changed_keys(record["params"], json.loads(_as_text(now["params"])))
     return _changed_inputs(record["inputs"], digests_of(map(str, made.input), digests)) or next(
@@ -250,6 +254,30 @@ def _listed(names):
     """Return the first of some names, and how many more there are."""
     more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
     return ", ".join(names[:_MOST_NAMED]) + more
+
+
+def kept_of_other_versions(jobs: Iterable[Any]) -> str:
+    """Return how many results another version made that this one keeps, and why, or "".
+
+    Parameters
+    ----------
+    jobs : iterable
+        As for `out_of_date`, of those that will not be done.
+
+    Returns
+    -------
+    str
+    """
+    records = (read_record(each.output.record) for each in jobs)
+    versions = [record["branchcrush"] for record in records if record]
+    others = sorted({version for version in versions if version != __version__})
+    if not others:
+        return ""
+    number = sum(version != __version__ for version in versions)
+    return (
+        f"kept: what {number} job{'s' * (number > 1)} of branchcrush {', '.join(others)} made, "
+        f"whose sources are the same in {__version__}"
+    )
 
 
 def dumps_not_kept(jobs: Iterable[Any]) -> str:

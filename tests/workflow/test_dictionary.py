@@ -8,7 +8,9 @@ import numpy as np
 import pyarrow.parquet as parquet
 import pytest
 
+from branchcrush.command.main import main
 from branchcrush.files.dictionary import result_files
+from branchcrush.files.made import is_record
 from branchcrush.files.tables import read_json
 from tests.pages import lost_links
 
@@ -119,6 +121,13 @@ def test_every_file_is_in_the_dictionary(any_results):
             f"{name}: give it an entry [[files]] in {WHERE}, with path, rule, what it holds and "
             "its columns, then run make schema"
         )
+
+
+def test_verify_finds_every_file_as_its_job_left_it(any_results, capsys):
+    assert main(["verify", str(any_results)]) == 0
+    told = re.search(r": (\d+) files are what \d+ jobs left", capsys.readouterr().out)
+    files = [path for path in files_of(any_results) if not is_record(path.as_posix())]
+    assert int(told[1]) == len(files)
 
 
 def test_every_column_is_in_the_dictionary_and_none_too_many(any_results):

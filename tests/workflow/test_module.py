@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from branchcrush.command.main import main
 from branchcrush.files.tables import read_table
 
 ROOT = Path(__file__).parents[2]
@@ -38,6 +39,7 @@ crushing:
       seeds: [3, 5]
       refined_seeds: 0
 """
+SAND = "0.3,0\n0.6,50\n1,100\n"
 RENAMED_IN_A_FOLDER = (" as crushing_*", '\n    prefix: "crushing"', "crushing/")
 
 
@@ -50,7 +52,7 @@ def parent(study):
         study.snakefile.write_text(PARENT.format(root=ROOT, names=names, more=more, folder=folder))
         (study.folder / "config.yaml").unlink()
         (study.folder / "parent.yaml").write_text(CONFIG)
-        (study.folder / "sand.csv").write_text("0.3,0\n0.6,50\n1,100\n")
+        (study.folder / "sand.csv").write_text(SAND)
         return study
 
     return made
@@ -72,11 +74,16 @@ def test_a_module_plans_all_that_another_workflow_asks_of_it(parent, prefix):
     assert re.search(r"^ +input: .*\bsand\.csv$", planned, re.MULTILINE), planned
 
 
-def test_a_module_runs_and_another_workflow_goes_on_from_its_results(parent):
+def test_a_module_runs_and_another_workflow_goes_on_from_its_results(parent, capsys):
     study = parent(*RENAMED_IN_A_FOLDER)
     output_of(study.snakemake("--configfile", "parent.yaml"))
     table = read_table(study.folder / "exponents.txt")
     assert list(table["sample"]) == ["tiny"]
+    assert main(["verify", str(study.folder / "crushing")]) == 0
+    (study.folder / "sand.csv").write_text("0.3,0\n0.6,51\n1,100\n")
+    assert main(["verify", str(study.folder / "crushing")]) == 1
+    assert "were made from another sand.csv than the one that is there" in capsys.readouterr().err
+    (study.folder / "sand.csv").write_text(SAND)
     again = output_of(study.snakemake("--configfile", "parent.yaml", "--dry-run"))
     assert "Nothing to be done" in again
     files = {str(path.parent) for path in study.contents()}

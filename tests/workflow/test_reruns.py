@@ -6,6 +6,8 @@ import pytest
 
 PAGE = {"findings_figures", "report"}
 FIGURES = {"packing_figures", "fit_figures", "report"} | PAGE
+# Beside whichever key: it writes the whole configuration.
+CONFIG = {"comparison"}
 MODEL = {"thermodynamics", "comparison", "fit_figures", "report"}
 NETWORKS = {"branch_lengths", "sharing", "packing_figures", "findings"} | PAGE
 SPLIT = {"energy_split", "verdict"} | MODEL | NETWORKS
@@ -27,7 +29,7 @@ def test_a_second_run_does_nothing(study):
 @pytest.mark.parametrize(
     ("old", "new", "rules"),
     [
-        ("dpi: 100", "dpi: 120", FIGURES),
+        ("dpi: 100", "dpi: 120", FIGURES | CONFIG),
         ("figures:", "thermodynamics: {critical_energy: 3.0e5}\nfigures:", MODEL),
         ("figures:", "energy_split: {confidence: 0.9}\nfigures:", SPLIT),
         ("figures:", "energy_split: {bins: 15}\nfigures:", SPLIT),

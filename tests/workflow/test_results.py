@@ -10,6 +10,8 @@ from matplotlib import pyplot as plt
 
 import branchcrush
 from branchcrush.errors import ResultsError
+from branchcrush.files.digests import file_digest
+from branchcrush.files.made import read_record, record_bytes
 from branchcrush.files.tables import read_packing
 from branchcrush.plotting.results import PANELS
 
@@ -139,6 +141,16 @@ def test_what_is_missing_or_of_another_version_is_told(finished, tmp_path):
     jamming.write_text(jamming.read_text().replace(f'"{branchcrush.__version__}"', '"0.0.1"'))
     steps = tmp_path / "results" / "tiny" / "seed_3" / "steps.csv"
     steps.write_text(steps.read_text().replace("work_J", "labour_J"))
+    # As those who made them would have left them.
+    for path, record in (
+        (jamming, "tiny/made/certificate.json"),
+        (steps, "tiny/seed_3/made.json"),
+    ):
+        record = tmp_path / "results" / record
+        content = read_record(record)
+        del content["sha256"]
+        content["outputs"][str(path.relative_to(tmp_path))] = file_digest(path)
+        record.write_bytes(record_bytes(content))
     study = branchcrush.open_study(tmp_path)
     told = "tiny/fabric.csv is not there: rule sharing writes it"
     assert study.missing() == [told] == study["tiny"].missing()

@@ -11,7 +11,12 @@ from snakemake.io import remove_flag
 from snakemake.logging import logger
 from snakemake.settings.types import RerunTrigger
 
-from branchcrush.records import dumps_not_kept, lines_of, out_of_date
+from branchcrush.records import (
+    dumps_not_kept,
+    kept_of_other_versions,
+    lines_of,
+    out_of_date,
+)
 
 
 # Of the inputs of all rules that follow: their times decide nothing.
@@ -57,8 +62,10 @@ def report_cases(dag, cases):
     for line in lines_of(case for case in cases if case.job not in below):
         logger.info(line)
     running = set(dag.needrun_jobs())
-    if line := dumps_not_kept(job for job in recorded(dag.jobs) if job not in running):
-        logger.info(line)
+    kept = [job for job in recorded(dag.jobs) if job not in running]
+    for line in (kept_of_other_versions(kept), dumps_not_kept(kept)):
+        if line:
+            logger.info(line)
 
 
 # Snakemake offers no place between the two. Once, however many modules include this.

@@ -120,6 +120,7 @@ rule comparison:
         ),
         # No job of its own, which would take a second to start and a moment to write it.
         package="results/datapackage.json",
+        config="results/config.json",
         record="results/made/comparison.json",
     log:
         "logs/comparison.log",
@@ -127,6 +128,7 @@ rule comparison:
         "../envs/branchcrush.yaml"
     params:
         code=code("comparison"),
+        config=SETTINGS.model_dump(mode="json", exclude_none=True),
         samples=SAMPLES,
         read=sorted(READ),
         run_again={name: sample["seeds"] for name, sample in REFINED_SAMPLES.items()},

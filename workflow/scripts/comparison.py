@@ -3,7 +3,9 @@
 from pathlib import Path
 
 from branchcrush.files.datapackage import data_package
-from branchcrush.files.tables import study_provenance, write_json, write_table
+from branchcrush.files.encoding import json_page
+from branchcrush.files.machine import machine, software
+from branchcrush.files.tables import study_provenance, write_json, write_table, write_text
 from branchcrush.records import recorded_job
 from branchcrush.results.package import Package
 from branchcrush.results.sample import Sample
@@ -20,4 +22,5 @@ with recorded_job(snakemake):
     write_table(output.table, rows, origin)
     seeds = {name: sample["seeds"] for name, sample in samples.items()}
     package = data_package(seeds, params.run_again, params.measured, params.breaking, params.read)
-    write_json(output.package, package, origin)
+    write_json(output.package, package, {**origin, "software": software(), "machine": machine()})
+    write_text(output.config, json_page(params.config))

@@ -8,7 +8,7 @@ from branchcrush.lammps.files import read_dump
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
-from branchcrush.records import recorded_job
+from branchcrush.records import checked_dump, recorded_job
 from branchcrush.study.viewer_states import packing_view, saved_grains
 
 with recorded_job(snakemake):
@@ -34,7 +34,7 @@ with recorded_job(snakemake):
     networks.draw_rose(output.contact_rose, dpi, contacts, path)
 
     dump = Path(files.path[0]).with_name("particles.dump.gz")
-    frames = read_dump(dump) if dump.exists() else ()
+    frames = read_dump(checked_dump(dump, snakemake)) if dump.exists() else ()
     view = packing_view(
         saved_grains(frames, packing, compressed, path),
         path,

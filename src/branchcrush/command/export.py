@@ -1,8 +1,9 @@
-"""The command `branchcrush export`: states of packings as files for ParaView."""
+"""The command `branchcrush export`: packings as files for ParaView, a study as RO-Crate."""
 
 from pathlib import Path
 
 import branchcrush
+from branchcrush.results.crate import write_crate
 from branchcrush.results.packing import Packing, State
 
 
@@ -13,8 +14,12 @@ def export(
     seed: int | None = None,
     state: str = "end",
     crushed: bool = False,
+    crate: bool = False,
+    licence: str = "",
 ) -> int:
     """Write states of packings as .vtp files, a folder each packing, and print what was written.
+
+    Or the metadata of the study as RO-Crate, beside its results.
 
     Parameters
     ----------
@@ -30,6 +35,10 @@ def export(
         The number of a state, end or all.
     crushed : bool
         Whether of the packing whose grains break.
+    crate : bool
+        Whether the metadata of the study are wanted, and no packing.
+    licence : str
+        Address of the licence of the data, for these metadata.
 
     Returns
     -------
@@ -39,7 +48,8 @@ def export(
     Raises
     ------
     ResultsError
-        When there is no such sample, seed or state, or its centres are not kept.
+        When there is no such sample, seed or state, or its centres are not kept; of RO-Crate when
+        the study is not finished or a file of it is damaged.
 
     Examples
     --------
@@ -47,6 +57,9 @@ def export(
     Traceback (most recent call last):
     branchcrush.errors.ResultsError: nowhere is no folder: ...
     """
+    if crate:
+        print(write_crate(place, licence))
+        return 0
     study = branchcrush.open_study(place)
     chosen = study[next(iter(study.samples)) if sample is None else sample]
     packing = chosen.seed(next(iter(chosen.seeds), 0) if seed is None else seed)

@@ -29,13 +29,21 @@ _CHECK = """\
 Check a configuration with all that it asks of grains, files and folders, and name all problems at
 once, a line each. Names of files in it are relative to its folder.
 """
+_VERIFY = """\
+Read every file of a study and hold it against the record of the job that made it: what is missing,
+changed, cut or damaged, without a record, of another seed or of another configuration, a line each.
+Neither Snakemake nor a configuration is needed.
+"""
 _EXPORT = """\
 Write a state of a packing for ParaView: grains, contacts, those with walls, force chains and the
-cell, a .vtp file each, in a folder for the packing.
+cell, a .vtp file each, in a folder for the packing. Or, with --crate, ro-crate-metadata.json into
+the results of a finished study: every file with its digest, what made it of what, the software and
+the machine.
 
   branchcrush export                                  # the first packing, at the end of its loading
   branchcrush export my_sand --sample sand --seed 3   # of a study in another folder
   branchcrush export --crushed --state all            # grains that break, a file for each state
+  branchcrush export --crate --licence https://spdx.org/licenses/CC-BY-4.0
 """
 _EXIT = "exit code: 0 sound, 1 problems in what was given, 2 no such file, folder or option"
 _HELP = {
@@ -123,9 +131,20 @@ def parser() -> argparse.ArgumentParser:
         help="a folder with a config.yaml, or a configuration file [.]",
     )
 
+    verify = commands.add_parser(
+        "verify",
+        help="every file of a study, held against what made it",
+        description=_VERIFY,
+        epilog=_EXIT,
+        formatter_class=raw,
+    )
+    verify.add_argument(
+        "place", nargs="?", default=".", metavar="FOLDER", help="of the study or its results [.]"
+    )
+
     export = commands.add_parser(
         "export",
-        help="packings as files for ParaView",
+        help="packings as files for ParaView, a study as RO-Crate",
         description=_EXPORT,
         epilog=_EXIT,
         formatter_class=raw,
@@ -139,6 +158,10 @@ def parser() -> argparse.ArgumentParser:
         "--state", type=_state, default="end", help="its number, end, or all whose grains are kept"
     )
     export.add_argument("--crushed", action="store_true", help="the packing whose grains break")
+    export.add_argument(
+        "--crate", action="store_true", help="metadata of the whole study as RO-Crate"
+    )
+    export.add_argument("--licence", default="", metavar="URL", help="of the data, for --crate")
     export.add_argument("--to", default="paraview", metavar="FOLDER", help="to write to [paraview]")
     return whole
 
@@ -173,6 +196,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             from branchcrush.command.preview import preview
 
             return preview(given["place"], given["cores"])
+        if command == "verify":
+            from branchcrush.command.verify import verify
+
+            return verify(given["place"])
         if command == "export":
             from branchcrush.command.export import export
 

@@ -17,6 +17,7 @@ _TAKEN = (
     "made",
     "measured",
     "comparison.csv",
+    "config.json",
     "coordination.csv",
     "datapackage.json",
     "exponents.csv",

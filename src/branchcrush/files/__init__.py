@@ -21,6 +21,9 @@ numbers. LAMMPS's own files are read in `lammps`, the configuration in `config`.
 - `blocks` fills the places of a page that a command makes, and writes tables in Markdown.
 - `origin` reads what made a result from the file itself; `vtk_xml` writes points and lines for
   ParaView.
+- `made` is what the record of a job looks like, `intact` whether a file is what its record tells,
+  by `digests`; jobs, the results API and `branchcrush verify` ask it before they trust a file.
+  `machine` tells with which software and where a study was finished.
 - `replacing` opens a file that takes its place when it is complete, so that a job that is killed
   leaves none by halves; `scratch` makes folders that are known to be nobody's when their process is
   dead, and removes such ones; `encoding` turns values into JSON, cells of CSV and arrays of Arrow.

@@ -141,6 +141,27 @@ def _paths_of_materials(file: ResultFile, measured: Mapping[str, bool]) -> Itera
             yield file.path.replace("<material>", name)
 
 
+def media_type(path: str) -> str:
+    """Return the media type of a file of the results by the end of its name, "" if unknown.
+
+    Parameters
+    ----------
+    path : str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> media_type("sand/path.csv"), media_type("sand/seed_1/pairs.dump.gz")
+    ('text/csv', 'application/gzip')
+    """
+    if path.endswith(_DUMP):
+        return "application/gzip"
+    return next((kind[1] for ending, kind in _KINDS.items() if path.endswith(ending)), "")
+
+
 def _resource(file: ResultFile, path: str) -> dict[str, Any]:
     form, media_type, is_table = next(
         kind for ending, kind in _KINDS.items() if path.endswith(ending)

@@ -54,6 +54,9 @@ class Digests:
     ----------
     writer : str
         Name of who notes: one file of notes each, so that jobs side by side never share one.
+    trust : bool
+        Whether notes are taken. A disk that changes a bit by itself changes no time, so whoever
+        wants to know what a file holds now reads it.
 
     Examples
     --------
@@ -68,8 +71,8 @@ class Digests:
     .snakemake/branchcrush/example.json
     """
 
-    def __init__(self, writer: str) -> None:
-        self._writer = writer
+    def __init__(self, writer: str, *, trust: bool = True) -> None:
+        self._writer, self._trust = writer, trust
         self._noted: dict[str, dict[str, list[list]]] = {}
         self._digests: dict[str, str] = {}
         self._new: dict[str, dict[str, list]] = {}
@@ -114,11 +117,13 @@ class Digests:
         state = [status.st_size, status.st_mtime_ns, status.st_ctime_ns]
         folder, name = os.path.split(path)
         ours = not os.path.isabs(path) and ".." not in Path(folder).parts
-        for *noted, digest in self._notes(folder).get(name, ()) if ours else ():
-            if noted == state:
-                return digest
+        entries = self._notes(folder).get(name, ()) if ours else ()
+        known = {digest for *noted, digest in entries if noted == state}
+        # Two of one state are of a disk that changed the file by itself.
+        if self._trust and len(known) == 1:
+            return known.pop()
         digest = file_digest(path)
-        if ours:
+        if ours and digest not in known:
             self._new.setdefault(folder, {})[name] = [*state, digest]
         return digest
 
@@ -141,7 +146,7 @@ def _read(notes):
     return {
         name: entry
         for name, entry in (entries.items() if isinstance(entries, dict) else ())
-        if isinstance(entry, list) and len(entry) == 4
+        if isinstance(entry, list) and len(entry) == 4 and isinstance(entry[-1], str)
     }
 
 

@@ -15,9 +15,14 @@
 `place`
     What these have in common: a `Place` is a folder that the dictionary of `files` names files of.
     By it alone is known which results there are, so that a new one has its place here at once.
+`verification`
+    `verify` reads every file of a study and holds it against the record of the job that made it.
+`crate`
+    A study described as RO-Crate: files with their digests, jobs, software, machine.
 `vtp`
     A state as files for ParaView; the format itself is `files.vtk_xml`.
 
 Nothing here computes: what is derived comes from the rooms of the science. Tables are those of
-pandas. A file that is not there, or that another version wrote, is told with what to do.
+pandas. A file that is not there, that is not what its job left, or that another version wrote, is
+told with what to do.
 """

@@ -123,7 +123,7 @@ class Packing(Place):
         file = self.package.folder / self.filled(Packing.pattern) / "packing.npz"
         if not file.is_file():
             raise ResultsError(f"{file} is not there: rule compression writes it")
-        return read_packing(file)
+        return read_packing(self.package.checked(file))
 
     @cached_property
     def _cells(self) -> dict[int, NDArray]:

@@ -11,8 +11,8 @@ from branchcrush.results.result import Result
 
 # Ends of the files that are results by themselves; pictures, pages and dumps are not.
 _ENDS = (".csv", ".parquet", ".json")
-# What describes the others, and what a job notes of itself.
-_NOTES = ("made", "datapackage")
+# What describes the others, what the study was asked for, and what a job notes of itself.
+_NOTES = ("made", "datapackage", "config")
 
 
 class Place:

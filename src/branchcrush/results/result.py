@@ -236,7 +236,7 @@ class Result:
                 f"{self.missing}. Run the study to its end, in "
                 f"{self.place.package.folder.absolute().parent}; .missing() lists all that lacks"
             )
-        return path
+        return self.place.package.checked(path)
 
     def _compare(self, path: Path, file: ResultFile, columns: list[str] | None) -> None:
         """Warn of a file that another version wrote, or whose columns this one does not know."""

@@ -4,13 +4,12 @@ import difflib
 from collections.abc import Iterator
 from functools import cached_property
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 from branchcrush import __version__
 from branchcrush.errors import ResultsError
 from branchcrush.files.dictionary import REFINED
-from branchcrush.results.package import Package
+from branchcrush.results.package import Package, folder_of_results
 from branchcrush.results.place import Place
 from branchcrush.results.sample import Sample
 
@@ -57,14 +56,7 @@ class Study(Place):
         ResultsError
             When there are no results in the folder.
         """
-        given = Path(folder)
-        if not given.is_dir():
-            raise ResultsError(
-                f"{given} is no folder: name the folder results of a study that has run"
-            )
-        inside = given / "results"
-        folder = inside if inside.is_dir() and not list(given.glob("*/seed_*")) else given
-        study = cls(Package(folder))
+        study = cls(Package(folder_of_results(folder)))
         if not study.samples:
             raise ResultsError(
                 f"{study.package.folder} holds no results: no folder <sample>/seed_<k> is in it. "

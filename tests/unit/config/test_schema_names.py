@@ -62,6 +62,7 @@ def test_name_kept_for_the_convergence_study_is_refused():
         "figures",
         "findings",
         "comparison.csv",
+        "config.json",
         "coordination.csv",
         "datapackage.json",
         "exponents.csv",

@@ -35,7 +35,7 @@ WITHOUT = re.compile(
     r"|predicted|measured(_(low|high))?"
 )
 # Names of LAMMPS and of NumPy's arrays are as their readers want them.
-OTHERS = (".dump.gz", ".npz")
+OTHERS = (".dump.gz", ".npz", "config.json")
 
 
 def test_braces_stand_for_every_choice_in_order():

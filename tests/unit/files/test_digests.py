@@ -64,7 +64,23 @@ def test_other_content_of_the_same_size_and_time_is_seen():
     assert Digests("fit").of("results/a.csv") == ABD
 
 
-@pytest.mark.parametrize("damage", ["", "{", "[1]", '{"a.csv": 3}', '{"a.csv": [1, 2]}'])
+def test_what_a_disk_changed_by_itself_is_read_by_whoever_does_not_trust_notes(monkeypatch):
+    noted()
+    status, real = os.stat("results/a.csv"), os.stat
+    Path("results/a.csv").write_text("abd")
+    monkeypatch.setattr(
+        "branchcrush.files.digests.os.stat",
+        lambda path, **how: status if path == "results/a.csv" else real(path, **how),
+    )
+    assert Digests("job").of("results/a.csv") == ABC
+    doubtful = Digests("job", trust=False)
+    assert doubtful.of("results/a.csv") == ABD
+    doubtful.note()
+    # Now there are two of one state, and everybody reads it.
+    assert Digests("checked").of("results/a.csv") == ABD
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[1]", '{"a.csv": 3}', '{"a.csv": [1, 2, 3, []]}'])
 def test_damaged_notes_cost_time_alone(damage):
     noted()
     Path(".snakemake/branchcrush/results/fit.json").write_text(damage)

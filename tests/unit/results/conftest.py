@@ -5,6 +5,8 @@ import pytest
 
 import branchcrush
 from branchcrush.files.dictionary import result_files
+from branchcrush.files.digests import Digests, digests_of
+from branchcrush.files.made import record_bytes
 from branchcrush.files.tables import provenance, write_packing, write_table
 from branchcrush.packings.network import VECTOR_COLUMNS
 
@@ -31,7 +33,19 @@ def write_results(folder, positions, radii, contacts, walls=()):
     for name, known, rows in (("contacts", CONTACT, contacts), ("wall_contacts", WALL, walls)):
         columns = {one: [row[one] for row in rows] for one in known}
         write_table(place / f"{name}.parquet", columns, origin)
+    leave_record(folder / "results", "sand/seed_7", sample="sand", seed="7")
     return branchcrush.open_study(folder)
+
+
+def leave_record(results, place, **wildcards):
+    """Write the record of the files of a packing, as the job that made them."""
+    files = sorted(path for path in (results / place).iterdir() if path.suffix != ".json")
+    paths = {f"results/{path.relative_to(results)}": path for path in files}
+    record = {"branchcrush": branchcrush.__version__, "rule": "compression", "code": ""}
+    record |= {"wildcards": wildcards, "params": {}, "inputs": {}}
+    digests = digests_of(map(str, paths.values()), Digests("test"))
+    record["outputs"] = dict(zip(paths, digests.values(), strict=True))
+    (results / place / "made.json").write_bytes(record_bytes(record))
 
 
 def touching(i, j, positions, radii, force, state=2):

@@ -7,6 +7,7 @@ import pytest
 import branchcrush
 from branchcrush.errors import ResultsError
 from branchcrush.files.tables import write_table
+from tests.unit.results.conftest import leave_record
 
 
 @pytest.fixture
@@ -95,6 +96,7 @@ def test_a_crushed_packing_has_its_own_grains_in_every_state(study, tmp_path):
         for grain, radius, x in ((0, 0.5, -1.0), (2, 0.5, 1.0), (3, 0.4, 0.0), (4, 0.2, 0.0))
     ]
     write_table(place / "grains.parquet", rows, {})
+    leave_record(tmp_path / "results", "sand/crushing/seed_7", sample="sand", seed="7")
     crushed = ours.crushed
     with pytest.warns(UserWarning, match="unknown"):
         assert crushed.end.grains["radius_m"].tolist() == [0.5, 0.5, 0.4, 0.2]
