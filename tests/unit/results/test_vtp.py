@@ -9,7 +9,7 @@ from hypothesis.extra.numpy import arrays
 from branchcrush.command.main import main
 from branchcrush.files.tables import provenance, write_json
 from branchcrush.files.vtk_xml import write_polydata
-from tests.unit.results.conftest import touching, write_results
+from tests.unit.results.conftest import leave_record, touching, write_results
 
 vtk_xml = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
 numpy_support = pytest.importorskip("vtkmodules.util.numpy_support")
@@ -103,6 +103,7 @@ def test_the_cell_of_another_code_is_exported_as_it_was_read(row_of_three, tmp_p
     origin = provenance(sample="sand", seed=7, config={"boundary": "walls"})
     reading = {"cells_m": [np.eye(3).tolist()] * 2 + [tilted], "periodic": [False] * 3}
     write_json(place / "reading.json", reading, origin)
+    leave_record(tmp_path / "results", "sand/seed_7", sample="sand", seed="7")
     assert main(["export", str(tmp_path), "--to", str(tmp_path / "out")]) == 0
     points, ends, _, _ = read(tmp_path / "out" / "sand" / "seed_7" / "cell_0002.vtp")
     assert np.ptp(points, axis=0).tolist() == [5.0, 2.5, 3.0]
@@ -111,6 +112,7 @@ def test_the_cell_of_another_code_is_exported_as_it_was_read(row_of_three, tmp_p
     assert (found.tolist(), times.tolist()) == (sorted(tilted), [4, 4, 4])
     # Of a version that did not tell it.
     write_json(place / "reading.json", {"periodic": [False] * 3}, origin)
+    leave_record(tmp_path / "results", "sand/seed_7", sample="sand", seed="7")
     assert main(["export", str(tmp_path), "--to", str(tmp_path / "again")]) == 1
     assert "lacks cells_m, as results of another version may" in capsys.readouterr().err
 
