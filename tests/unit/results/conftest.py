@@ -39,7 +39,7 @@ def write_results(folder, positions, radii, contacts, walls=()):
 
 def leave_record(results, place, **wildcards):
     """Write the record of the files of a packing, as the job that made them."""
-    files = sorted(path for path in (results / place).iterdir() if path.suffix != ".json")
+    files = sorted(path for path in (results / place).iterdir() if path.name != "made.json")
     paths = {f"results/{path.relative_to(results)}": path for path in files}
     record = {"branchcrush": branchcrush.__version__, "rule": "compression", "code": ""}
     record |= {"wildcards": wildcards, "params": {}, "inputs": {}}
