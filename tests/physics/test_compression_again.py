@@ -3,7 +3,6 @@
 import os
 import random
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 
 from branchcrush.lammps.compression import compress
+from branchcrush.lammps.kept import read_kept
 from branchcrush.loading.states import force_floor
 from tests.physics.crushings import GLASS, LINEAR, alike, killed_after, loose, variables
 
@@ -157,6 +157,7 @@ CHILD = """\
 import sys
 from pathlib import Path
 from branchcrush.lammps.compression import compress
+from branchcrush.lammps.kept import read_kept
 from tests.physics.test_compression_again import asked
 packing, given = asked(**eval(sys.argv[1]))
 folder = Path(sys.argv[2])
@@ -171,23 +172,24 @@ def test_killed_at_random_moments_it_goes_on_to_the_same_bytes(
     run, lammps_inputs, tmp_path, case, ranks
 ):
     """Of ranks, too: the bytes are those of as many ranks."""
-    settings = {**CASES[case], "grains": 150}
-    start = time.monotonic()
+    settings = {**CASES[case], "grains": 100}
     undisturbed = run(*asked(**settings), ranks=ranks)
-    seconds, rng = time.monotonic() - start, random.Random(ranks)
+    state, rng = tmp_path / "kept/state.kept", random.Random(ranks)
     command = [sys.executable, "-c", CHILD, repr(settings), str(tmp_path), str(lammps_inputs)]
-    for _ in range(3):
-        with subprocess.Popen(
-            [*command, str(ranks)],
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            stderr=subprocess.DEVNULL,
-        ) as child:
-            # Python and its imports come first.
-            end = time.monotonic() + 60
-            while not (tmp_path / "log").exists() and time.monotonic() < end:
-                time.sleep(0.01)
-            time.sleep(rng.uniform(0.0, 0.7 * seconds))
-            child.send_signal(signal.SIGKILL)
-        (tmp_path / "log").unlink(missing_ok=True)
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    for reached in range(3):
+        with subprocess.Popen([*command, str(ranks)], env=environment) as child:
+            end = time.monotonic() + 200
+            while targets_of(state) < reached and child.poll() is None and time.monotonic() < end:
+                time.sleep(0.002)
+            time.sleep(rng.uniform(0.0, 0.1))
+            child.kill()
+        assert targets_of(state) >= reached
     again = run(*asked(**settings), ranks=ranks, checkpoint=tmp_path / "kept")
     assert same(undisturbed, again)
+    assert "\nbranchcrush: continues from state " in again[2]
+
+
+def targets_of(state):
+    """Return how many targets the kept state has reached, -1 where none is kept."""
+    return read_kept(state)[0]["targets"] if state.exists() else -1
