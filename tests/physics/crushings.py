@@ -8,6 +8,7 @@ import pytest
 from branchcrush.breakage.rules import Breakage
 from branchcrush.breakage.strength import Strength
 from branchcrush.errors import SimulationError
+from branchcrush.lammps import checkpoint
 from branchcrush.lammps.checkpoint import Checkpoint
 from branchcrush.lammps.compression import Packing, compression_variables
 from branchcrush.loading.targets import Loading
@@ -85,5 +86,6 @@ def killed_after(targets):
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Checkpoint, "note", note_and_die)
+        patch.setattr(checkpoint, "LEAST_SECONDS", 0.0)
         with pytest.raises(SimulationError, match="killed"):
             yield

@@ -10,6 +10,7 @@ import time
 import numpy as np
 import pytest
 
+from branchcrush.lammps import checkpoint
 from branchcrush.lammps.compression import compress
 from branchcrush.lammps.kept import read_kept
 from branchcrush.loading.states import force_floor
@@ -97,6 +98,16 @@ def test_a_path_that_stops_on_the_way_stops_there_again(run, tmp_path):
     assert same(undisturbed, run(packing, given, checkpoint=tmp_path))
 
 
+def test_states_that_take_no_time_are_not_kept(run, tmp_path, monkeypatch):
+    packing, given = asked()
+    monkeypatch.setattr(checkpoint, "LEAST_SECONDS", 3600.0)
+    undisturbed = run(packing, given, checkpoint=tmp_path)
+    assert not (tmp_path / "state.kept").exists()
+    monkeypatch.setattr(checkpoint, "LEAST_SECONDS", 0.0)
+    assert same(undisturbed, run(packing, given, checkpoint=tmp_path))
+    assert (tmp_path / "state.kept").exists()
+
+
 @pytest.fixture(scope="module")
 def reached(tmp_path_factory, lammps_inputs):
     """Return what was asked for, an undisturbed run of it, and what one that was killed kept."""
@@ -156,9 +167,11 @@ def test_what_is_of_another_loading_or_code_is_never_gone_on_with(run, reached, 
 CHILD = """\
 import sys
 from pathlib import Path
+from branchcrush.lammps import checkpoint
 from branchcrush.lammps.compression import compress
 from branchcrush.lammps.kept import read_kept
 from tests.physics.test_compression_again import asked
+checkpoint.LEAST_SECONDS = 0.0
 packing, given = asked(**eval(sys.argv[1]))
 folder = Path(sys.argv[2])
 compress(*packing, given, inputs=sys.argv[3], folder=folder, log=folder / "log",

