@@ -34,7 +34,7 @@ samples:
 figures: {dpi: 60}
 """
 # In the environment of each process of a study, by which it is known also when its parent is dead.
-_MARK = "BRANCHCRUSH_KILLS"
+MARK = "BRANCHCRUSH_KILLS"
 # How long a command may take, and how long a process may outlive the run that it belongs to [s].
 _LONGEST, _AFTERLIFE = 900.0, 10.0
 
@@ -55,7 +55,7 @@ class Study:
             "PYTHONPATH": str(ROOT / "src"),
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
             "TMPDIR": str(self.temporary),
-            _MARK: self.mark,
+            MARK: self.mark,
         }
 
     @contextlib.contextmanager
@@ -85,17 +85,11 @@ class Study:
 
     def processes(self):
         """Return the processes of this study that live, whoever their parents are."""
-        return [process for process in _all_processes() if self._owns(process)]
+        return processes_of(self.mark)
 
     def jobs(self):
         """Return those among them that run a script of the workflow."""
-        return [process for process in self.processes() if b"/scripts/tmp" in _words(process)]
-
-    def _owns(self, process):
-        with contextlib.suppress(OSError):
-            marked = f"{_MARK}={self.mark}".encode()
-            return marked in Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
-        return False
+        return [process for process in self.processes() if b"/scripts/tmp" in words_of(process)]
 
     def results(self):
         """Return the digest of each file of results, by name."""
@@ -117,10 +111,11 @@ class Study:
         return times
 
     def scratch(self):
-        """Return the scratch that lies there: folders of LAMMPS, files not yet in their place."""
+        """Return what is to be gone at the end: scratch of LAMMPS, files not yet in their place."""
         inside = self.folder.glob("results/**/.*")
         links = self.temporary.glob("branchcrush-*")
-        return sorted(str(path.relative_to(self.folder)) for path in (*inside, *links))
+        kept = self.folder.glob(".branchcrush/checkpoints/**/*.*")
+        return sorted(str(path.relative_to(self.folder)) for path in (*inside, *links, *kept))
 
 
 def killed(study, name, victim, moment):
@@ -145,7 +140,7 @@ def killed(study, name, victim, moment):
         end = time.monotonic() + _AFTERLIFE
         while (alive := study.processes()) and time.monotonic() < end:
             time.sleep(0.05)
-        broken = [f"process {_words(process).decode()} lives on" for process in alive]
+        broken = [f"process {words_of(process).decode()} lives on" for process in alive]
     return {**told, "in_time": True, "exit_code": main.returncode, "broken": broken}
 
 
@@ -215,7 +210,7 @@ def _broken_end(study, code):
     broken = [f"exit code {code}"] if code else []
     broken += [f"{path} was left" for path in study.scratch()]
     return broken + [
-        f"process {_words(process).decode()} lives on" for process in study.processes()
+        f"process {words_of(process).decode()} lives on" for process in study.processes()
     ]
 
 
@@ -230,11 +225,19 @@ def _mark_of(path):
     return base64.urlsafe_b64encode(str(path).encode()).decode()
 
 
-def _all_processes():
-    return [int(entry) for entry in os.listdir("/proc") if entry.isdigit()]
+def processes_of(mark):
+    """Return the processes that live and have a mark, whoever their parents are."""
+    found = []
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        # One that has ended, or belongs to somebody else, tells nothing.
+        with contextlib.suppress(OSError):
+            environment = Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+            if f"{MARK}={mark}".encode() in environment:
+                found.append(int(process))
+    return found
 
 
-def _words(process):
+def words_of(process):
     """Return the command line of a process; nothing of one that has ended."""
     with contextlib.suppress(OSError):
         return Path(f"/proc/{process}/cmdline").read_bytes().replace(b"\0", b" ").strip()

@@ -1,6 +1,7 @@
 """How a job of the workflow ends: quietly, or with one message on the screen and in its log."""
 
 import contextlib
+import shutil
 import sys
 import traceback
 from collections.abc import Iterator
@@ -8,8 +9,7 @@ from os import PathLike
 from pathlib import Path
 
 from branchcrush.errors import BranchcrushError
-from branchcrush.lammps.processes import end_with_parent
-from branchcrush.runs import belongs_to_run, join_run
+from branchcrush.runs import join_run
 
 
 @contextlib.contextmanager
@@ -40,10 +40,7 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
     ...         print(Path(folder, "fit.log").read_text(), end="")
     branchcrush: no packing carries load
     """
-    if belongs_to_run():
-        # A shell may stand between this process and the run.
-        end_with_parent()
-        join_run()
+    join_run()
     log = Path(log)
     log.parent.mkdir(parents=True, exist_ok=True)
     log.touch()
@@ -59,3 +56,33 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
         with log.open("a", encoding="utf-8") as file:
             traceback.print_exc(file=file)
         raise
+
+
+@contextlib.contextmanager
+def checkpoint_of(results: str | PathLike[str]) -> Iterator[Path]:
+    """Yield the folder where a job keeps what it goes on from when it is killed.
+
+    It lies beside the locks of the run, where no cleaning of scratch comes, and is removed when the
+    job has ended well.
+
+    Parameters
+    ----------
+    results : path-like
+        The folder of the job's results, which no other job has.
+
+    Yields
+    ------
+    Path
+        It need not be there.
+
+    Examples
+    --------
+    >>> with checkpoint_of("results/sand/seed_1") as folder:
+    ...     folder.as_posix()
+    '.branchcrush/checkpoints/results/sand/seed_1'
+    """
+    # Never where the results are, however their folder is told.
+    parts = [part for part in Path(results).parts if part not in ("/", "..")]
+    folder = Path(".branchcrush", "checkpoints", *parts)
+    yield folder
+    shutil.rmtree(folder, ignore_errors=True)

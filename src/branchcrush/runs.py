@@ -22,6 +22,7 @@ from pathlib import Path
 
 from branchcrush.errors import RunError
 from branchcrush.files.scratch import remove_dead, remove_leavings
+from branchcrush.lammps.processes import end_with_parent, start_of
 
 _FOLDER = ".branchcrush"
 # Tells jobs which run they belong to.
@@ -54,7 +55,7 @@ def one_run() -> Iterator[None]:
     """
     folder = Path(_FOLDER).resolve()
     with _held(folder / "run.lock") as lock:
-        run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {_start_of(os.getpid())}"
+        run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {start_of(os.getpid())}"
         _write(lock, {"run": run, **_holder()})
         _wait_for_jobs(folder / "jobs.lock")
         remove_leavings("results")
@@ -67,11 +68,6 @@ def one_run() -> Iterator[None]:
             os.environ.pop(_VARIABLE, None)
 
 
-def belongs_to_run() -> bool:
-    """Return whether a run began this process."""
-    return _VARIABLE in os.environ
-
-
 def join_run() -> None:
     """Let this process, a job, end when the run that began it ends, whichever way.
 
@@ -80,6 +76,11 @@ def join_run() -> None:
     run = os.environ.get(_VARIABLE)
     if run is None:
         return
+    # Of what stands between this process and the run, such as a shell. First of all, since it may
+    # end at any moment; then it is looked at, since it may have ended before.
+    end_with_parent()
+    if not _is_of(os.getppid(), run):
+        os.kill(os.getpid(), signal.SIGKILL)
     folder = Path(_FOLDER).resolve()
     # Held until this process ends: no other run begins before.
     _locked(folder / "jobs.lock", fcntl.LOCK_SH, wait=True)
@@ -87,6 +88,19 @@ def join_run() -> None:
         os.kill(os.getpid(), signal.SIGKILL)
     watch = threading.Thread(target=_end_with, args=(run, folder / "run.lock"), daemon=True)
     watch.start()
+
+
+def _is_of(process, run):
+    """Return whether a process is a run, or was begun in it: not so one that takes in orphans."""
+    _, machine, main, _ = run.split(" ")
+    if machine == _machine() and str(process) == main:
+        return True
+    try:
+        # As it was when the process began.
+        environment = Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+    except OSError:  # another user's
+        return process != 1
+    return f"{_VARIABLE}={run}".encode() in environment
 
 
 @contextlib.contextmanager
@@ -128,7 +142,7 @@ def _end_with(run, lock):
 def _lives(run, lock):
     """Return whether a run has not ended yet."""
     _, machine, process, start = run.split(" ")
-    if machine == _machine() and start != _start_of(process):
+    if machine == _machine() and start != start_of(process):
         return False
     try:
         text = lock.read_text(encoding="utf-8")
@@ -234,14 +248,3 @@ def _machine():
         return f"{boot}/{os.readlink('/proc/self/ns/pid')}"
     except OSError:
         return "unknown"
-
-
-def _start_of(process):
-    """Return when a process was started, in the kernel's ticks; "none" where none runs."""
-    try:
-        text = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return "none"
-    # Behind the name, which may hold anything; one that is dead and was not looked after is Z.
-    state, *fields = text.rpartition(")")[2].split()
-    return "none" if state in "ZX" else fields[18]

@@ -1,9 +1,15 @@
 """Small packings whose grains break, and what tests of them ask."""
 
+from contextlib import contextmanager
+
 import numpy as np
+import pytest
 
 from branchcrush.breakage.rules import Breakage
 from branchcrush.breakage.strength import Strength
+from branchcrush.errors import SimulationError
+from branchcrush.lammps import checkpoint
+from branchcrush.lammps.checkpoint import Checkpoint
 from branchcrush.lammps.compression import Packing, compression_variables
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import HertzContact, LinearContact
@@ -63,3 +69,23 @@ def stored_in(path):
     """Return what the account of a path leaves open, over the work."""
     taken = path["dissipated_breakage_J"] + path["dissipated_rearrangement_J"]
     return np.abs(path["work_J"] - path["elastic_energy_J"] - taken)[2:] / path["work_J"][2:]
+
+
+@contextmanager
+def killed_after(targets):
+    """Let a run die when it has kept the state of so many targets."""
+    note = Checkpoint.note
+
+    def note_and_die(self, session, reached, *others):
+        note(self, session, reached, *others)
+        if reached == targets:
+            # What is written on after a state is cut off.
+            with (self.folder / "states.csv").open("a") as file:
+                file.write("9,9")
+            raise RuntimeError("killed")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Checkpoint, "note", note_and_die)
+        patch.setattr(checkpoint, "LEAST_SECONDS", 0.0)
+        with pytest.raises(SimulationError, match="killed"):
+            yield

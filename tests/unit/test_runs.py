@@ -123,6 +123,17 @@ def test_job_whose_run_died_before_it_began_ends_at_once(folder):
         assert (ended.returncode, ended.stdout) == (-signal.SIGKILL, b"")
 
 
+def test_job_whose_shell_died_before_it_began_ends_at_once():
+    waits = "import os, sys, time\nwhile os.getppid() == int(sys.argv[1]): time.sleep(0.01)\n"
+    shell = ["sh", "-c", '"$0" -c "$1" $$ & exit', sys.executable]
+    with one_run():
+        # Until the output ends: nobody is left who could write to it. The run lives on.
+        assert subprocess.run([*shell, waits + JOB], capture_output=True).stdout == b""
+        # One that lives, between them.
+        shell[2] = '"$0" -c "$1"; exit'
+        assert subprocess.run([*shell, JOB], capture_output=True).stdout == b"1\n"
+
+
 def test_no_run_begins_beside_a_job_of_an_earlier_one(folder, monkeypatch):
     monkeypatch.setattr(runs, "_PATIENCE", 0.5)
     lock = folder / ".branchcrush" / "jobs.lock"

@@ -13,8 +13,11 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from branchcrush.files.tables import read_json, read_table
+from branchcrush.config.sample import sample_of
+from branchcrush.files.tables import read_json, read_packing, read_table
+from branchcrush.lammps.compression import compress, sample_variables
 from tests.pages import lost_links, said
+from tests.physics.crushings import killed_after
 from tests.pictures import is_whole
 
 SEED = 3
@@ -74,7 +77,7 @@ def crushed(breaking):
 def test_every_result_file_is_there(crushed):
     asked = {*OF_SAMPLE, *(f"crushing/seed_{SEED}/{name}" for name in OF_SEED)}
     assert {name for name in asked if not (crushed / name).stat().st_size} == set()
-    assert not list(crushed.rglob("unfinished"))
+    assert not list(crushed.parents[1].glob(".branchcrush/checkpoints/**/*.*"))
 
 
 def test_tables_of_a_seed_tell_the_same_breakages_energy_and_mass(crushed):
@@ -130,18 +133,48 @@ def test_a_crushing_killed_in_the_middle_goes_on_to_the_same_bytes(breaking):
     folder = breaking.folder / f"results/breaking/crushing/seed_{SEED}"
     before = digests(folder)
     (folder / "path.csv").unlink()
-    unfinished = folder / "unfinished"
+    kept = breaking.folder / f".branchcrush/checkpoints/results/breaking/crushing/seed_{SEED}"
     with started(breaking, TARGET):
-        wait_until((unfinished / "account_3.npz").exists)
-    assert (unfinished / "state.npz").exists() and not (folder / "path.csv").exists()
+        wait_until((kept / "account_3.kept").exists)
+    assert not (folder / "path.csv").exists()
     run = breaking.snakemake(TARGET, cores=1)
     assert run.returncode == 0, run.stdout + run.stderr
-    assert not unfinished.exists()
+    assert not kept.exists()
     assert digests(folder) == before
     # A row of LAMMPS for each state: none is computed again but for the one it was killed at.
     log = (breaking.folder / f"logs/breaking/seed_{SEED}/crushing.log").read_text()
     states = [int(state) for state in re.findall(r"^(\d+),\d+,\d+,", log, re.MULTILINE)]
-    assert states in ([3, 4, 5, 6], [4, 5, 6])
+    # A state that took no time is not kept.
+    assert states == list(range(states[0], 7))
+    assert states[0] in (0, 2, 3, 4, 5)
+    said = f"\nbranchcrush: continues from state {states[0] - 1} of 6\n"
+    assert (said in log) == (states[0] > 0)
+
+
+def test_a_compression_killed_in_the_middle_goes_on_to_the_same_bytes(breaking, tmp_path):
+    results = f"results/breaking/seed_{SEED}"
+    folder, kept = breaking.folder / results, breaking.folder / ".branchcrush/checkpoints" / results
+    before, record = digests(folder), read_json(folder / "made.json")
+    packing = read_packing(folder / "packing.npz")
+    variables = sample_variables(sample_of(record["params"]["sample"]), packing[1])
+    # So few grains are done before anybody can kill them: here, as the job would have done it.
+    with killed_after(2):
+        compress(
+            *packing,
+            variables,
+            inputs=breaking.folder / "lammps_inputs",
+            folder=tmp_path,
+            log=tmp_path / "log",
+            checkpoint=kept,
+            code=record["code"],
+        )
+    (folder / "path.csv").unlink()
+    run = breaking.snakemake(f"{results}/path.csv", cores=1)
+    assert run.returncode == 0, run.stdout + run.stderr
+    log = (breaking.folder / f"logs/breaking/seed_{SEED}/compression.log").read_text()
+    assert "\nbranchcrush: continues from state 3 of 6\n" in log
+    assert not kept.exists()
+    assert digests(folder) == before
 
 
 @contextlib.contextmanager

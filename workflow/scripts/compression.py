@@ -6,11 +6,13 @@ import numpy as np
 
 from branchcrush.config.sample import sample_of
 from branchcrush.files.tables import provenance, write_packing, write_table
+from branchcrush.jobs import checkpoint_of
 from branchcrush.lammps.compression import compress, placed_packing, sample_variables
 from branchcrush.lammps.files import write_data_file
 from branchcrush.records import recorded_job
 
-with recorded_job(snakemake) as beside:
+folder = Path(snakemake.output.path).parent
+with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     origin = provenance(sample=name, seed=seed, ranks=ranks, config=params.sample)
@@ -18,7 +20,6 @@ with recorded_job(snakemake) as beside:
     packing = placed_packing(sample, np.random.default_rng(seed))
     write_packing(output.packing, *packing, origin)
     write_data_file(output.data, *packing)
-    folder = Path(output.path).parent
     tables = compress(
         *packing,
         sample_variables(sample, packing.radii),
@@ -27,6 +28,8 @@ with recorded_job(snakemake) as beside:
         log=snakemake.log[0],
         ranks=ranks,
         keep_dumps=params.keep_dumps,
+        checkpoint=checkpoint,
+        code=params.code,
     )
     beside += map(str, folder.glob("*.dump.gz"))
     for kind, table in tables._asdict().items():

@@ -4,15 +4,16 @@ from pathlib import Path
 
 from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.files.tables import provenance, read_packing, write_table
+from branchcrush.jobs import checkpoint_of
 from branchcrush.lammps.compression import sample_variables
 from branchcrush.lammps.crush import crush
 from branchcrush.records import recorded_job
 
-with recorded_job(snakemake) as beside:
+folder = Path(snakemake.output.path).parent
+with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     packing = read_packing(snakemake.input.packing)
-    folder = Path(output.path).parent
     tables = crush(
         *packing,
         sample_variables(sample_of(params.sample), packing[1]),
@@ -23,7 +24,7 @@ with recorded_job(snakemake) as beside:
         log=snakemake.log[0],
         ranks=ranks,
         keep_dumps=params.keep_dumps,
-        progress=folder / "unfinished",
+        checkpoint=checkpoint,
         code=params.code,
     )
     beside += map(str, folder.glob("*.dump.gz"))

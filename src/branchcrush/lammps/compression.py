@@ -1,6 +1,5 @@
 """The compression of a packing in LAMMPS, from the radii and the loading to its tables."""
 
-import shutil
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -14,11 +13,12 @@ from numpy.typing import ArrayLike
 from branchcrush.errors import SimulationError
 from branchcrush.files.scratch import scratch_folder
 from branchcrush.gradings.sampling import sampled_radii
-from branchcrush.lammps.files import compress_file, last_frame, write_data_file
-from branchcrush.lammps.links import linked
+from branchcrush.lammps.checkpoint import Checkpoint, run_key
+from branchcrush.lammps.compressing import compression_task
+from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.neighbours import neighbour_settings
-from branchcrush.lammps.output import DUMPS, Compression, read_compression
-from branchcrush.lammps.run import run_script
+from branchcrush.lammps.output import Compression, read_compression
+from branchcrush.lammps.workplace import keep, run_led, workplace
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.states import force_floor, stress_floor
 from branchcrush.loading.targets import (
@@ -126,12 +126,15 @@ def compress(
     log: str | PathLike[str],
     ranks: int = 1,
     keep_dumps: Literal["all", "last", "none"] = "all",
+    checkpoint: str | PathLike[str] | None = None,
+    code: str = "",
 ) -> Compression:
     """Compress a packing in LAMMPS and return its loading path and contacts.
 
-    Runs `in.compress`; its dumps are gzipped into the folder when the run is complete. Where the
-    script has to stop on the way (a grain escapes, a state does not come to rest, a stress is not
-    reached) the states saved so far are returned, and column `stopped` of the last says why.
+    Takes the steps of `in.compress`; its dumps are gzipped into the folder when the run is
+    complete. Where it has to stop on the way (a grain escapes, a state does not come to rest, a
+    stress is not reached) the states saved so far are returned, and column `stopped` of the last
+    says why.
 
     Parameters
     ----------
@@ -153,6 +156,12 @@ def compress(
         MPI processes that share the packing.
     keep_dumps : {"all", "last", "none"}
         Of which states; those of an earlier run in the folder are not kept beside the new tables.
+    checkpoint : path-like, optional
+        A folder of its own where each saved state is kept. A run that finds its own there goes on
+        from the last one, to the same bytes; what another run left there goes. It is not removed:
+        that is for whoever has the results safe.
+    code : str
+        Stands for the code that runs: what another one left in the checkpoint is not gone on with.
 
     Returns
     -------
@@ -165,51 +174,16 @@ def compress(
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    with (
-        scratch_folder(".compress-", folder) as scratch,
-        linked(inputs, scratch) as links,
-    ):
-        write_data_file(scratch / "packing.data", positions, radii, edge)
-        stopped = run_script(
-            links / "inputs" / "in.compress",
-            {
-                **variables,
-                "data": links / "output" / "packing.data",
-                "inputs": links / "inputs",
-                "output_folder": links / "output",
-                "quit_on_failure": "no",
-                # For its progress lines: state 0 is as placed, state 1 the end of the approach.
-                "last_state": len(variables["targets"]) + 1,
-            },
-            log,
-            ranks,
-        )
-        tables = read_compression(scratch, variables, stopped)
-        keep(scratch, folder, keep_dumps)
+    key = run_key(np.asarray(positions), np.asarray(radii), edge, variables, ranks, code)
+    with workplace(folder, inputs, checkpoint) as (work, links):
+        kept = Checkpoint(work, key)
+        note = kept.opened()
+        if kept.saved() is None:
+            write_data_file(work / "packing.data", positions, radii, edge)
+        stopped = run_led(compression_task, kept, note, links, variables, log, ranks)
+        tables = read_compression(work, variables, stopped)
+        keep(work, folder, keep_dumps)
     return tables
-
-
-def keep(scratch: Path, folder: Path, keep_dumps: Literal["all", "last", "none"]) -> None:
-    """Gzip the dumps of a run into a folder, all of them, those of the last state, or none.
-
-    Parameters
-    ----------
-    scratch : Path
-        Holds them.
-    folder : Path
-        Of the results; what an earlier run left there goes.
-    keep_dumps : {"all", "last", "none"}
-    """
-    # All of them whole before the first takes the place of an earlier run's.
-    packed = [f"{name}.gz" for name in DUMPS]
-    for name, target in zip(DUMPS, packed, strict=True) if keep_dumps != "none" else ():
-        start = last_frame(scratch / name) if keep_dumps == "last" else 0
-        compress_file(scratch / name, scratch / target, start)
-    for target in packed:
-        if keep_dumps == "none":
-            (folder / target).unlink(missing_ok=True)
-        else:
-            shutil.move(scratch / target, folder / target)
 
 
 class Packing(NamedTuple):

@@ -1,8 +1,7 @@
 """The crushing of a packing in LAMMPS, from the radii, the loading and the strengths to tables."""
 
-import shutil
 from collections.abc import Mapping
-from contextlib import ExitStack
+from dataclasses import asdict
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -11,14 +10,12 @@ import numpy as np
 
 from branchcrush.breakage.rules import Breakage
 from branchcrush.errors import SimulationError
-from branchcrush.files.scratch import scratch_folder
-from branchcrush.lammps.compression import keep
+from branchcrush.lammps.checkpoint import run_key
 from branchcrush.lammps.crushing import crushing_task
 from branchcrush.lammps.files import write_data_file
-from branchcrush.lammps.links import linked
 from branchcrush.lammps.output import read_compression
 from branchcrush.lammps.progress import Job, Progress
-from branchcrush.lammps.run import declared_variables, run_task
+from branchcrush.lammps.workplace import keep, run_led, workplace
 
 # Force evaluations that a relaxation may take.
 LARGEST_RELAXATION = 400_000
@@ -72,7 +69,7 @@ def crush(
     log: str | PathLike[str],
     ranks: int = 1,
     keep_dumps: Literal["all", "last", "none"] = "all",
-    progress: str | PathLike[str] | None = None,
+    checkpoint: str | PathLike[str] | None = None,
     code: str = "",
 ) -> Crushed:
     """Compress a packing in LAMMPS whose grains break, and return its path and what broke.
@@ -88,11 +85,8 @@ def crush(
     rules : Breakage
     seed : int
         Of the packing; strengths and rotations are drawn by it and each grain's descent.
-    progress : path-like, optional
-        A folder of its own where each saved state is kept. A run that finds its own there goes on
-        from the last one, to the same bytes; one that comes to its end removes it.
-    code : str
-        Stands for the code that runs: what another one left in the folder is not gone on with.
+    checkpoint, code
+        As for `compression.compress`.
 
     Returns
     -------
@@ -123,61 +117,25 @@ def crush(
         law_name=variables["law"],
         stiffness=float(variables["stiffness"]),
         periodic=variables["boundary"] == "periodic",
-        variables=dict(variables),
-        code=code,
     )
-    with ExitStack() as stack:
-        work = (
-            stack.enter_context(scratch_folder(".compress-", folder))
-            if progress is None
-            else Path(progress)
-        ).resolve()
-        links = stack.enter_context(linked(inputs, work))
-        kept = Progress(work)
-        started = _started(kept, job, positions, edge)
-        stopped = run_task(
-            crushing_task,
-            {"folder": str(work), "inputs": str(links / "inputs")},
-            links / "inputs" / "in.compress",
-            # No script declares them here.
-            {
-                **declared_variables(Path(inputs) / "in.compress"),
-                **started,
-                "data": links / "output" / "packing.data",
-                "inputs": links / "inputs",
-                "output_folder": links / "output",
-                "last_state": len(job.targets) + 1,
-            },
-            log,
-            ranks,
-        )
-        tables = _tables(work, kept, job, stopped)
+    key = run_key(
+        np.asarray(positions), job.radii, edge, variables, ranks, code, seed, asdict(rules)
+    )
+    with workplace(folder, inputs, checkpoint) as (work, links):
+        kept = Progress(work, key)
+        note = kept.opened()
+        if kept.saved() is None:
+            write_data_file(work / "packing.data", positions, radii, edge)
+        kept.write_job(job)
+        stopped = run_led(crushing_task, kept, note, links, variables, log, ranks)
+        tables = _tables(work, kept, variables, stopped)
         keep(work, folder, keep_dumps)
-        if progress is not None:
-            shutil.rmtree(work)
     return tables
 
 
-def _started(kept, job, positions, edge):
-    """Write what LAMMPS starts from, the first packing or the last state that was kept."""
-    saved = kept.saved() if kept.is_of(job) else None
-    if saved is None:
-        shutil.rmtree(kept.folder, ignore_errors=True)
-        kept.folder.mkdir(parents=True)
-        write_data_file(kept.folder / "packing.data", positions, job.radii, edge)
-        kept.write_job(job)
-        return job.variables
-    kept.cut(saved)
-    write_data_file(
-        kept.folder / "packing.data", saved.position, saved.radius, saved.edge, saved.number
-    )
-    going_on = {"append": "yes", "evaluations": saved.evaluations}
-    return {**job.variables, **saved.settings, **going_on}
-
-
-def _tables(work, kept, job, stopped):
+def _tables(work, kept, variables, stopped):
     """Return the tables of a run from what LAMMPS wrote and what was kept of each state."""
-    tables = read_compression(work, job.variables, stopped)
+    tables = read_compression(work, variables, stopped)
     states = len(tables.path["state"])
     _, grains = kept.table("grains", states)
     accounts, _ = kept.table("account", states)

@@ -11,10 +11,11 @@ from branchcrush.breakage.criterion import largest_force
 from branchcrush.breakage.grains import Grains, exchange, first_grains
 from branchcrush.breakage.rules import Breakage
 from branchcrush.errors import SimulationError
+from branchcrush.lammps.leading import Ended, led
 from branchcrush.lammps.neighbours import neighbour_settings
-from branchcrush.lammps.progress import Job, Progress, Saved
+from branchcrush.lammps.progress import Progress
 from branchcrush.lammps.session import Session
-from branchcrush.lammps.straining import Ended, Strained
+from branchcrush.lammps.straining import Strained
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.geometry import solid_volume
 
@@ -48,13 +49,9 @@ class Crushing(Strained):
     def begin(self) -> None:
         """Approach, to where strain steps begin: states 0 and 1."""
         session = self.session
-        session.include("state")
-        session.include("approach")
+        session.include("begin")
         if session.failure:
             raise Ended(session.failure)
-        session.set(step_limit=session.read("largest_relaxation"), work=0.0)
-        session.include("step")
-        session.include("state")
         self._look()
         overloaded = int((self.overload >= 1.0).sum())
         if overloaded:
@@ -64,20 +61,25 @@ class Crushing(Strained):
                 "loading.approach_solid_fraction"
             )
         self.account = Account(stored=self.rest.elastic_energy)
-        self.progress.note_state(self, targets=0)
 
-    def go_on(self, targets: int, done: int) -> None:
-        """Load to each target edge in turn, from where `done` of them are reached."""
-        session = self.session
-        for number in range(1, targets + 1):
-            if number > done:
-                session.include("target")
-                self._load()
-                session.include("state")
-                self.progress.note_state(self, targets=number)
-                self._end_at_stress()
-            if number < targets:
-                session.command("next targets")
+    def load(self) -> None:
+        """Go to the next target edge, and save a state there."""
+        self.session.include("target")
+        self._load()
+        self.session.include("state")
+
+    def keep(self, targets: int) -> None:
+        """Keep the state that is reached with some number of targets."""
+        self.progress.note_state(self, targets)
+
+    def judge(self) -> None:
+        """End the run where the stress that it is to reach is reached at a saved state."""
+        largest = self.rules.largest_mean_stress
+        # Not at the end of the approach, where every loading begins.
+        if largest is None or self.session.read("state") <= 2:
+            return
+        if self.session.read("mean_stress") >= largest:
+            raise Ended(f"the mean stress has reached largest_mean_stress {largest:g} Pa")
 
     def _load(self):
         """Take strain steps to a target, all grains at rest and none overloaded after each."""
@@ -200,11 +202,6 @@ class Crushing(Strained):
         )
         return float(rest.energy[own].sum() + rest.wall_energy[at_wall].sum())
 
-    def _end_at_stress(self):
-        largest = self.rules.largest_mean_stress
-        if largest is not None and self.session.read("mean_stress") >= largest:
-            raise Ended(f"the mean stress has reached largest_mean_stress {largest:g} Pa")
-
 
 def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
     """Crush a packing in a LAMMPS instance: what `lammps.run.run_task` runs.
@@ -214,40 +211,32 @@ def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
     lammps : object
         Started with the variables of in.compress.
     payload : mapping
-        folder: of the progress; inputs: of mod.setup.
+        folder, key: of the progress; inputs: of mod.setup; note: for the log.
 
     Returns
     -------
     str
         Why it ended before its last target; empty where it did not.
     """
-    progress = Progress(Path(payload["folder"]))
+    progress = Progress(Path(payload["folder"]), payload["key"])
     job = progress.job()
     session = Session(lammps, payload["inputs"], periodic=job.periodic, law=job.law)
-    session.include("setup")
-    saved = progress.saved()
+
+    def begun():
+        grains = first_grains(job.radii, job.seed, job.rules)
+        crushing = Crushing(session, job.rules, grains, job.seed, progress)
+        crushing.begin()
+        return crushing
+
+    def restored(saved):
+        grains = progress.grains(saved)
+        crushing = Crushing(session, job.rules, grains, job.seed, progress)
+        crushing.account = Account(**saved.more["account"])
+        crushing.settings = saved.settings
+        return crushing
+
     try:
-        if saved is None:
-            grains = first_grains(job.radii, job.seed, job.rules)
-            crushing = Crushing(session, job.rules, grains, job.seed, progress)
-            crushing.begin()
-            done = 0
-        else:
-            crushing = _restored(session, job, saved, progress)
-            done = saved.targets
-        crushing.go_on(len(job.targets), done)
+        led(session, progress, len(job.targets), begun, restored, payload["note"])
     except Ended as end:
         return str(end)
     return ""
-
-
-def _restored(session: Session, job: Job, saved: Saved, progress: Progress) -> Crushing:
-    """Return the crushing as it was at a saved state, of which LAMMPS has read the grains."""
-    session.set(**saved.scalars, step_limit=session.read("largest_relaxation"))
-    session.set_edge(saved.edge)
-    session.set(grains=saved.number.size)
-    session.set_masses(saved.number, saved.mass)
-    session.update()
-    crushing = Crushing(session, job.rules, saved.grains, job.seed, progress)
-    crushing.account, crushing.settings = saved.account, saved.settings
-    return crushing

@@ -18,8 +18,9 @@ from typing import Any
 
 from branchcrush.errors import SimulationError
 from branchcrush.files.scratch import scratch_folder
+from branchcrush.lammps import rank
 from branchcrush.lammps.library import load_lammps
-from branchcrush.lammps.processes import end_with_parent
+from branchcrush.lammps.processes import end_with_parent, start_of
 
 
 def declared_variables(script: str | PathLike[str]) -> dict[str, str]:
@@ -97,6 +98,17 @@ def script_task(lammps: Any, payload: Mapping[str, Any]) -> str:
         As `run_script`.
     """
     lammps.file(payload["script"])
+    return why_stopped(lammps)
+
+
+def why_stopped(lammps: Any) -> str:
+    """Return why a script stopped before its end, and at which edge; empty if it did not.
+
+    Parameters
+    ----------
+    lammps : object
+        Whose variables `failed`, `failure` and `edge` tell it.
+    """
     if not int(lammps.extract_variable("failed")):
         return ""
     edge = float(lammps.extract_variable("edge"))
@@ -158,14 +170,14 @@ def run_task(
 
 def _run(name, payload, arguments, ranks):
     """Run a task in this process; an error of LAMMPS is part of what is returned."""
-    lammps, stopped, problem, seconds, rank = None, "", "", 0.0, 0
+    lammps, stopped, problem, seconds, number = None, "", "", 0.0, 0
     module, _, function = name.partition(":")
     task = getattr(import_module(module), function)
     try:
         library = load_lammps()
         start = time.perf_counter()
         lammps = library(cmdargs=arguments)
-        rank, world = (lammps.extract_setting(f"world_{what}") for what in ("rank", "size"))
+        number, world = (lammps.extract_setting(f"world_{what}") for what in ("rank", "size"))
         if world != ranks:  # each would run alone, and write over the others
             raise RuntimeError(
                 f"{ranks} ranks were asked for, and this mpiexec gives LAMMPS a world of {world}: "
@@ -183,12 +195,12 @@ def _run(name, payload, arguments, ranks):
             if ranks == 1 or not problem:
                 lammps.close()
             seconds = time.perf_counter() - start
-    return {"rank": rank, "stopped": stopped, "error": problem, "seconds": seconds}
+    return {"rank": number, "stopped": stopped, "error": problem, "seconds": seconds}
 
 
 def _run_on_ranks(name, payload, arguments, ranks, folder, log):
     """Run a task over MPI ranks; the first of them leaves the result in a file."""
-    job = [name, payload, arguments, ranks, os.getpid()]
+    job = [name, payload, arguments, ranks]
     (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
     launcher = _launcher()
     if launcher is None:
@@ -196,8 +208,8 @@ def _run_on_ranks(name, payload, arguments, ranks, folder, log):
             f"{ranks} ranks were asked for, and there is no mpiexec: install the package mpich "
             "into this Python, or use ranks: 1"
         )
-    # mpi4py ends all ranks when one of them fails.
-    command = [launcher, "-n", str(ranks), sys.executable, "-m", "mpi4py", "-m", __name__, folder]
+    command = [launcher, "-n", ranks, sys.executable, "-m", rank.__name__, __name__]
+    command += [folder, os.getpid(), start_of(os.getpid())]
     # All ranks are this job's, on this machine, also inside a Slurm allocation.
     environment = {
         name: value for name, value in os.environ.items() if not name.startswith("SLURM_")
@@ -271,13 +283,7 @@ def main(folder: str | PathLike[str]) -> None:
         When LAMMPS itself stops on this rank.
     """
     folder = Path(folder)
-    name, payload, arguments, ranks, job = json.loads(
-        (folder / "job.json").read_text(encoding="utf-8")
-    )
-    # From here on the launcher's end, which follows the job's, ends this rank: before, it may have
-    # been missed.
-    end_with_parent()
-    os.kill(job, 0)
+    name, payload, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
     result = _run(name, payload, arguments, ranks)
     if result["rank"] == 0 or result["error"]:
         own = folder / f"result-{result['rank']}.json"

@@ -62,7 +62,8 @@ class Session:
     inputs : path-like
         The folder of mod.setup.
     periodic : bool
-    law : LinearContact or HertzContact
+    law : LinearContact or HertzContact, optional
+        For `rest` and `elastic_energy` alone.
     """
 
     def __init__(
@@ -71,11 +72,12 @@ class Session:
         inputs: str | PathLike[str],
         *,
         periodic: bool,
-        law: LinearContact | HertzContact,
+        law: LinearContact | HertzContact | None = None,
     ) -> None:
         self.lammps, self.inputs, self.periodic, self.law = lammps, inputs, periodic, law
         # Of all ranks; alone there is nobody to ask.
-        self._ranks = lammps.get_mpi_comm() if lammps.extract_setting("world_size") > 1 else None
+        self.ranks = int(lammps.extract_setting("world_size"))
+        self._ranks = lammps.get_mpi_comm() if self.ranks > 1 else None
         self.command = lammps.command
 
     def include(self, name: str) -> None:
@@ -89,6 +91,15 @@ class Session:
     def text(self, name: str) -> str:
         """Return the text of a variable."""
         return str(self.lammps.extract_variable(name))
+
+    def say(self, text: str) -> None:
+        """Write a line to the log."""
+        self.command(f'print "{text}"')
+
+    def wait(self) -> None:
+        """Wait until all ranks are here."""
+        if self._ranks is not None:
+            self._ranks.Barrier()
 
     def set(self, **values: float | int) -> None:
         """Give variables of style equal their values."""

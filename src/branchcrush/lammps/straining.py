@@ -9,15 +9,12 @@ from scipy.optimize import root_scalar
 from branchcrush.breakage.criterion import CRITERIA
 from branchcrush.breakage.grains import Grains
 from branchcrush.breakage.rules import Breakage
+from branchcrush.lammps.leading import Ended
 from branchcrush.lammps.session import Rest, Session
 
 # Of the search for the strain at which the next grain breaks, and how near it gets, over the strain
 # step and the tolerance: nearer, the packing leaps past the strength of the grain.
 _MOST_TRIALS, _SHORTEST = 50, 1.0e-2
-
-
-class Ended(Exception):
-    """A run ends before its last target, validly: the reason."""
 
 
 class _Near(Exception):

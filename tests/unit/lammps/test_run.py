@@ -3,12 +3,15 @@
 import json
 import os
 import re
+import signal
+import subprocess
 import sys
 
 import numpy as np
 import pytest
 
 from branchcrush.errors import SimulationError
+from branchcrush.lammps.processes import start_of
 from branchcrush.lammps.run import declared_variables, main, run_script
 
 SCRIPT = """\
@@ -103,13 +106,12 @@ def test_ranks_without_a_launcher_are_refused(run, tmp_path, monkeypatch):
         run(SCRIPT, {}, ranks=3)
 
 
-def job_in(folder, text, job=None):
-    job = job or os.getpid()
+def job_in(folder, text, ranks=1):
     (folder / "in.example").write_text(text)
     arguments = ["-screen", "none", "-log", "none"]
     payload = {"script": str(folder / "in.example")}
     task = "branchcrush.lammps.run:script_task"
-    (folder / "job.json").write_text(json.dumps([task, payload, arguments, 1, job]))
+    (folder / "job.json").write_text(json.dumps([task, payload, arguments, ranks]))
 
 
 def test_rank_leaves_its_result_in_the_folder_of_its_job(tmp_path):
@@ -129,15 +131,17 @@ def test_rank_that_fails_leaves_its_error_and_ends(tmp_path):
 
 
 def test_job_for_more_ranks_than_there_are_is_refused(tmp_path):
-    job_in(tmp_path, SCRIPT)
-    job = json.loads((tmp_path / "job.json").read_text())
-    (tmp_path / "job.json").write_text(json.dumps([*job[:3], 2, job[4]]))
+    job_in(tmp_path, SCRIPT, ranks=2)
     with pytest.raises(SimulationError, match=r"2 ranks were asked for, and .* a world of 1"):
         main(tmp_path)
 
 
 def test_rank_whose_job_died_before_it_began_runs_nothing(tmp_path):
-    job_in(tmp_path, SCRIPT, job=2**22 + 1)  # above what Linux gives
-    with pytest.raises(ProcessLookupError):
-        main(tmp_path)
+    job_in(tmp_path, SCRIPT)
+    command = [sys.executable, "-m", "branchcrush.lammps.rank", "branchcrush.lammps.run", tmp_path]
+    # The same number, given to a process that began later.
+    ended = subprocess.run([*map(str, command), str(os.getpid()), "1"])
+    assert ended.returncode == -signal.SIGTERM
     assert not (tmp_path / "result.json").exists()
+    subprocess.run([*map(str, command), str(os.getpid()), start_of(os.getpid())], check=True)
+    assert (tmp_path / "result.json").exists()
