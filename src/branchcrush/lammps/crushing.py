@@ -225,6 +225,8 @@ def crushing_task(lammps: Any, payload: Mapping[str, Any]) -> str:
     job = progress.job()
     session = Session(lammps, payload["inputs"], periodic=job.periodic, law=job.law)
     session.include("setup")
+    if session.failure:
+        return session.failure
     saved = progress.saved()
     try:
         if saved is None:
