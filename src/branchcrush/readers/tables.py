@@ -102,8 +102,8 @@ def read_yade_text(path: str | PathLike[str]) -> ColumnFrame:
     [6.0]
     """
     lines = lines_of(path)
-    told = [line.split()[1] for line in lines if line.startswith("#format") and " " in line]
-    kind = told[0] if told else "x_y_z_r"
+    told = [line.split()[1:] for line in lines if line.startswith("#format")]
+    kind = told[0][0][:60] if told and told[0] else "x_y_z_r"
     if kind not in _YADE:
         raise ReadingError(
             f"{path}: its format is {kind}, and one of {', '.join(_YADE)} is needed: write it by "
