@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from branchcrush.errors import ReadingError
 from branchcrush.readers.frames import ColumnFrame
 from branchcrush.readers.limits import FURTHEST, LARGEST_ID, LARGEST_NUMBER, size_problem
+from branchcrush.readers.texts import listed
 
 # How many columns make each, and what each is in the words of an error.
 CONTACT_ROLES = {
@@ -86,8 +87,8 @@ def in_roles(frame: ColumnFrame, roles: Roles) -> dict[str, NDArray]:
     missing = [name for name in names_of(roles) if name not in frame.columns]
     if missing:
         raise ReadingError(
-            f"{frame.where}: it has no column {', '.join(missing)}; it has "
-            f"{', '.join(frame.columns)}: name the columns as they stand there"
+            f"{frame.where}: it has no column {listed(missing)}; it has "
+            f"{listed(frame.columns)}: name the columns as they stand there"
         )
     problems = []
     for role, name in roles.items():

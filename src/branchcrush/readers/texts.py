@@ -3,7 +3,7 @@
 import io
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 
@@ -18,6 +18,7 @@ _MANTISSA = re.compile(r"^[+-]?0*\.?0*(?P<digits>[\d.]*)(?:[eE][+-]?\d+)?$")
 _TRUE, _FALSE = (re.compile(rf"\b{word}\b", re.IGNORECASE) for word in ("true", "false"))
 # Unpacked: ten million grains and their contacts have less.
 _LARGEST, _BLOCK = 4_000_000_000, 1 << 20
+_MOST_NAMES, _LONGEST_NAME = 20, 60
 # So many lines tell how many digits a file has.
 _LINES_OF_DIGITS = 200
 
@@ -70,6 +71,27 @@ def text_of(path: str | PathLike[str]) -> str:
     if not text.strip():
         raise ReadingError(f"{path}: is empty")
     return text
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names in a list that one can read, however many and long they are.
+
+    Parameters
+    ----------
+    names : iterable of str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> listed(["x", "y"]), listed("abcdefghijklmnopqrstuvwxyz")[-17:]
+    ('x, y', 's, t and 6 others')
+    """
+    names = [name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "..." for name in names]
+    more = len(names) - _MOST_NAMES
+    return ", ".join(names[:_MOST_NAMES]) + (f" and {more} others" if more > 0 else "")
 
 
 def _unpacked(data, kind):
