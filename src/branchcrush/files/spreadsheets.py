@@ -88,6 +88,8 @@ def workbook_cells(
 
 def _chosen(names, sheet, path):
     """Return the name of the sheet that is asked for."""
+    if not names:
+        raise GradingError(f"{path}: has no sheet of cells; save the table as CSV in UTF-8")
     if sheet is None:
         return names[0]
     if sheet in names:

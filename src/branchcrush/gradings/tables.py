@@ -77,7 +77,9 @@ def from_percent_finer(
     from scipy.interpolate import PchipInterpolator, make_interp_spline
 
     points = np.log(radius), percent / 100
-    curve = make_interp_spline(*points, k=1) if straight else PchipInterpolator(*points)
+    # Of next to no percent a slope has no reciprocal, and PCHIP takes it for level.
+    with np.errstate(over="ignore"):
+        curve = make_interp_spline(*points, k=1) if straight else PchipInterpolator(*points)
     slope = curve.derivative()
 
     def density_by_mass(r: NDArray) -> NDArray:

@@ -164,6 +164,7 @@ def _placed(columns, cell, where):
         if suffix != "u":
             if cell is None:
                 raise ReadingError(f"{where}: scaled coordinates, and no BOX BOUNDS to scale by")
-            places = cell.origin + places @ cell.vectors
+            with np.errstate(all="ignore"):  # what is no number then is refused as such
+                places = cell.origin + places @ cell.vectors
         return columns | dict(zip("xyz", places.T, strict=True))
     return columns

@@ -71,7 +71,8 @@ def sound_cell(cell: Cell, positions: NDArray, radii: NDArray, where: str) -> Ce
     Traceback (most recent call last):
     branchcrush.errors.ReadingError: x.dump: its cell has edges of 1, 1 and 0 m: it has no volume...
     """
-    edges = np.linalg.norm(cell.vectors, axis=1)
+    with np.errstate(all="ignore"):  # of numbers that are refused below
+        edges = np.linalg.norm(cell.vectors, axis=1)
     shown = "{:.3g}, {:.3g} and {:.3g} m".format(*edges)
     # Not `>`, which is false of what is no number.
     if not (edges.max() <= FURTHEST and np.abs(cell.origin).max() <= FURTHEST):
