@@ -136,7 +136,8 @@ def from_histogram(
         raise GradingError("channels must hold 0 or more each, and one of them more")
     # To at most 1, by a power of two, which rounds nothing: their scale is any, and a sum or a
     # quotient of the largest numbers is none.
-    shares = np.ldexp(shares, -np.frexp(shares.max())[1])
+    largest: int = np.frexp(shares.max())[1]
+    shares = np.asarray(np.ldexp(shares, -largest), dtype=float)
     edges, _ = _columns(edges, np.append(0.0, shares))
     held = np.flatnonzero(shares)
     edges, shares = edges[held[0] : held[-1] + 2], shares[held[0] : held[-1] + 1]
