@@ -1,9 +1,9 @@
 """Measure a part, and write what came of it: python -m benchmarks PART [NAME=VALUE ...]
 
 PART is one of the names below, or `all`, which leaves out those that need a setting (`before`) and
-those that measure no time (`damage`, `kills`, `orphans`). A NAME=VALUE, the value as JSON, is a
-setting of the part's `run`, for a trial; its result goes to a folder named by --results, so that no
-trial is taken for a result.
+those that measure no time (`damage`, `kills`, `orphans`, `fuzz`). A NAME=VALUE, the value as JSON,
+is a setting of the part's `run`, for a trial; its result goes to a folder named by --results, so
+that no trial is taken for a result.
 """
 
 import argparse
@@ -38,7 +38,7 @@ PARTS = (
 # These need settings, so `all` leaves them out.
 NEED_SETTINGS = ("before",)
 # What holds, not what it takes.
-NOT_TIMED = ("damage", "kills", "orphans")
+NOT_TIMED = ("damage", "kills", "orphans", "fuzz")
 RESULTS = Path(__file__).with_name("results")
 # What is shown of a result without a `summary` of its own.
 _MOST_LINES = 20

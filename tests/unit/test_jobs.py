@@ -1,5 +1,7 @@
 """How a job ends: what stands in its log, on the screen, and in its exit code."""
 
+import errno
+
 import pytest
 
 from branchcrush.errors import ConfigError, GradingError
@@ -42,3 +44,57 @@ def test_interruption_is_no_error(tmp_path):
     with pytest.raises(KeyboardInterrupt), job(tmp_path / "fit.log"):
         raise KeyboardInterrupt
     assert (tmp_path / "fit.log").read_text() == ""
+
+
+def ended(log, error):
+    """Return what a job that an error ends says on the screen."""
+    with pytest.raises(SystemExit) as caught, job(log):
+        raise error
+    assert caught.value.code == 1
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (
+            OSError(errno.ENOSPC, "No space left on device"),
+            "No space left on device: free some space, then repeat the command",
+        ),
+        (
+            PermissionError(errno.EACCES, "Permission denied", "results/a.csv"),
+            "Permission denied, results/a.csv: change its permissions, then repeat the command",
+        ),
+        (
+            MemoryError("Unable to allocate 7.6 GiB"),
+            "not enough memory: Unable to allocate 7.6 GiB; run fewer jobs at a time (--cores), or "
+            "ask for fewer grains or states",
+        ),
+    ],
+)
+def test_what_the_machine_refuses_is_one_line(tmp_path, capsys, error, words):
+    ended(tmp_path / "fit.log", error)
+    assert (tmp_path / "fit.log").read_text() == f"branchcrush: {words}\n"
+    assert capsys.readouterr().err == f"branchcrush: {words}\n"
+
+
+def test_a_file_that_is_missing_is_a_fault_and_logged_whole(tmp_path):
+    with pytest.raises(FileNotFoundError), job(tmp_path / "fit.log"):
+        (tmp_path / "no.csv").read_text()
+    assert "Traceback" in (tmp_path / "fit.log").read_text()
+
+
+def test_a_full_disk_under_the_log_hides_no_message(tmp_path, capsys):
+    # Opens, and takes nothing.
+    (tmp_path / "fit.log").symlink_to("/dev/full")
+    ended(tmp_path / "fit.log", GradingError("κ is wrong"))
+    told = capsys.readouterr().err
+    assert told == (
+        f"{tmp_path / 'fit.log'} cannot be written (No space left on device), so it is told here: "
+        "branchcrush: κ is wrong\n"
+    )
+
+
+def test_a_file_in_the_place_of_the_folder_of_logs_hides_no_message(tmp_path, capsys):
+    (tmp_path / "logs").touch()
+    ended(tmp_path / "logs" / "fit.log", GradingError("κ is wrong"))
+    assert "so it is told here: branchcrush: κ is wrong" in capsys.readouterr().err

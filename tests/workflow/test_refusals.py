@@ -5,6 +5,8 @@ import shutil
 
 import pytest
 
+from branchcrush.files.memory import machine_memory
+
 
 @pytest.mark.parametrize(
     ("content", "expected"),
@@ -43,7 +45,7 @@ def test_a_wrong_key_of_the_command_line(study):
     assert line.startswith("config: figures.dpi = 3 dots per inch: must be a whole number from 50")
 
 
-@pytest.mark.parametrize("place", ["results", "logs", "results/tiny", "results/figures/tiny"])
+@pytest.mark.parametrize("place", ["results", "logs", "results/tiny", "logs/tiny/seed_5"])
 def test_a_file_where_a_folder_of_results_must_be(study, place):
     (study.folder / place).parent.mkdir(parents=True, exist_ok=True)
     (study.folder / place).touch()
@@ -71,6 +73,28 @@ def test_a_place_without_the_permission_to_use_it(study, place):
     else:
         assert "cannot be written to" in line
         assert (str(study.folder) if place == "." else place) in line
+
+
+def test_more_memory_than_the_machine_has_is_refused_before_any_job(study):
+    # 350 MB + 900 B * 14 states * 1e7 grains = 126 GB.
+    study.configure(study.tiny.replace("grains: 60", "grains: 10000000"))
+    if machine_memory().total > 80e9:
+        pytest.skip("this machine has the memory")
+    (line,) = study.refused()
+    assert line.startswith("config: samples.tiny.grains = 10000000: a job takes about 126.3 GB of")
+    assert line.endswith("ask for fewer grains or loading.states, or take a larger machine")
+
+
+def test_grains_without_room_are_refused_before_any_job(study):
+    study.configure(
+        study.tiny.replace("min: 5.0e-5", "min: 9.9e-4")
+        .replace("edge_reduction: 0.4", "edge_reduction: 0.2")
+        .replace("boundary: walls", "boundary: walls\n    initial_solid_fraction: 0.4")
+    )
+    (line,) = study.refused()
+    assert line.startswith(
+        "config: samples.tiny.initial_solid_fraction = 0.4: seed 3 finds no room"
+    )
 
 
 def test_all_problems_of_all_kinds_are_named_at_once(study):

@@ -125,20 +125,21 @@ def test_in_a_terminal_a_table_moves_and_nothing_is_garbled(study):
 
 
 def test_a_failed_packing_is_told_once_with_its_log_and_at_the_end(study):
-    study.configure(
-        study.tiny.replace("min: 5.0e-5", "min: 9.9e-4")
-        .replace("edge_reduction: 0.4", "edge_reduction: 0.2")
-        .replace("boundary: walls", "boundary: walls\n    initial_solid_fraction: 0.4")
-    )
+    results = study.folder / "results/tiny/seed_3"
+    (results / "pairs.dump.gz").mkdir(parents=True)
+    study.configure(study.tiny + "keep_dumps: none\n")
     run = study.snakemake(PACKINGS[0])
     lines = run.stderr.splitlines()
-    assert run.returncode == 1
-    told = [line for line in lines if "no free place for grain" in line]
-    assert len(told) == 2
-    assert re.match(r"\d\d:\d\d:\d\d FAILED tiny seed 3: no free place for grain", told[0])
+    assert run.returncode == 1, run.stderr
+    told = [line for line in lines if "Is a directory" in line]
+    assert len(told) == 2, run.stderr
+    words = (
+        "Is a directory, .*pairs.dump.gz: move the folder that lies in the place of a file, then"
+    )
+    assert re.match(rf"\d\d:\d\d:\d\d FAILED tiny seed 3: {words} repeat", told[0])
     assert told[0].endswith("(log: logs/tiny/seed_3/compression.log)")
     assert lines[-3:] == ["One job failed:", told[1], lines[-1]]
     assert lines[-1].startswith("Before that: 0 of 1 packings. Once the cause is mended: the same")
-    assert "at a solid fraction of 0." in told[0]
+    assert [path.name for path in results.iterdir()] == ["pairs.dump.gz"]
     assert "Traceback" not in run.stdout + run.stderr
     assert len(run.stderr) < 1500

@@ -2,7 +2,11 @@
 
 from functools import partial
 
-from branchcrush.errors import RunError
+from snakemake.logging import logger
+
+from branchcrush.config.memory import memory_warnings
+from branchcrush.errors import ConfigError, RunError
+from branchcrush.files.memory import machine_memory
 from branchcrush.runs import one_run
 
 
@@ -20,9 +24,14 @@ def alone(execute):
         if executor_plugin.common_settings.dryrun_exec or only_preview:
             return execution()
         try:
+            # On a cluster jobs have the memory of other machines.
+            here = executor_plugin.common_settings.local_exec
+            cores = workflow.resource_settings.cores or 1
+            for line in memory_warnings(SETTINGS, cores, machine_memory()) if here else ():
+                logger.warning(line)
             with one_run():
                 return execution()
-        except RunError as error:
+        except (ConfigError, RunError) as error:
             raise WorkflowError(str(error)) from None
 
     return execute_alone

@@ -1,5 +1,6 @@
 """Settings: what the command line and config.yaml hold -> `SETTINGS`, checked, or what is wrong."""
 
+import logging
 import sys
 
 from snakemake.exceptions import WorkflowError
@@ -40,4 +41,6 @@ try:
     else:  # a job of a study that was checked
         SETTINGS = checked_config(config)
 except ConfigError as error:
+    # On a full disk Snakemake cannot write its own log, and would say so in tracebacks.
+    logging.raiseExceptions = False
     raise WorkflowError(str(error)) from None

@@ -214,6 +214,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BranchcrushError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
+    except MemoryError:
+        print("error: not enough memory: ask for fewer grains or states", file=sys.stderr)
+        return 1
 
 
 def _key(value):

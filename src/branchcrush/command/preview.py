@@ -13,6 +13,7 @@ from branchcrush.command.check import measured_line, study_of
 from branchcrush.config.build import size_fits, unit_of
 from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.errors import BranchcrushError
+from branchcrush.files.memory import machine_memory
 from branchcrush.files.tables import write_text
 from branchcrush.gradings.curves import grading_table, ultimate_grading
 from branchcrush.gradings.sampling import sampled_radii
@@ -91,7 +92,7 @@ def study_preview(
             refused=not settings["allow_unrepresentative"],
             breakage=breakage_of(settings["breakage"]) if settings["breakage"] else None,
         )
-    page = preview_text(plans, cores, pictures, notes) if plans else ""
+    page = preview_text(plans, cores, pictures, notes, machine_memory()) if plans else ""
     page += "".join(
         f"{name}: read from files of another code; nothing to preview\n"
         for name in samples

@@ -84,6 +84,10 @@ class GradingValues:
                 f"{table.sizes[same[0]]:.17g} and {table.sizes[same[0] + 1]:.17g} are one size but "
                 "for rounding: remove one of the lines"
             )
+        # Before anything is computed of them.
+        _refuse_sizes(
+            table.sizes[0] * self.to_radius, table.sizes[-1] * self.to_radius, self["unit"]
+        )
         ends = [self.section.get(key) for key in ("min", "max")]
         cut = [None if end is None else end * self.to_radius for end in ends]
         return table.sizes * self.to_radius, table.values, cut
@@ -167,7 +171,7 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
     try:
         grading = FORMS[form](GradingValues(section))
         if file is not None:
-            _refuse_sizes(grading, section)
+            _refuse_sizes(*grading.support(), section["unit"])
         return grading
     except GradingError as error:
         if file is None or str(file) in str(error):
@@ -175,13 +179,12 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
         raise GradingError(f"{file}: {error}") from None
 
 
-def _refuse_sizes(grading: Grading, section: Mapping[str, Any]) -> None:
-    """Refuse sizes of a file that no grain has: keys of sizes are checked one by one."""
-    smallest, largest = (2.0 * float(radius) for radius in grading.support())
-    if smallest < SMALLEST or largest > LARGEST:
+def _refuse_sizes(smallest: float, largest: float, unit: str) -> None:
+    """Refuse radii of a file that no grain has: keys of sizes are checked one by one."""
+    if 2.0 * smallest < SMALLEST or 2.0 * largest > LARGEST:
         raise GradingError(
-            f"diameters are {smallest:.3g} to {largest:.3g} m, and must be from {SMALLEST:g} to "
-            f"{LARGEST:g} m: check the file and the unit, {section['unit']}"
+            f"diameters are {2.0 * smallest:.3g} to {2.0 * largest:.3g} m, and must be from "
+            f"{SMALLEST:g} to {LARGEST:g} m: check the file and the unit, {unit}"
         )
 
 

@@ -1,6 +1,5 @@
 """What a configuration asks of grains, files and folders: checked before any job starts."""
 
-import os
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -10,11 +9,12 @@ from pydantic import ValidationError
 from branchcrush.config.breakage_checks import breakage_problems
 from branchcrush.config.build import unit_of
 from branchcrush.config.fields import one_line
+from branchcrush.config.folders import folder_problems
 from branchcrush.config.grading_files import checked_grading, unread_file
 from branchcrush.config.history import history_loads
 from branchcrush.config.measured_checks import measured_problems
-from branchcrush.config.names import REFINED
 from branchcrush.config.packing_files import packing_problems
+from branchcrush.config.room import room_problems
 from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import Config, Sample, checked_config
 from branchcrush.errors import ConfigError, GradingError
@@ -90,7 +90,11 @@ def checked_study(
         ]
     # A name that is none of a folder was refused as such.
     names = [name for name in samples if isinstance(name, str) and Path(name).name == name]
-    problems += [f"config: {line}" for line in _folder_problems(Path(folder), names)]
+    seeds = {name: config.samples[name].seeds if config else () for name in names}
+    problems += [
+        f"config: {line}"
+        for line in folder_problems(folder, seeds, list(config.measured) if config else ())
+    ]
     if problems:
         raise ConfigError("\n".join(problems))
     return config
@@ -123,13 +127,8 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
     grading, problems = checked_grading(section.get("grading"))
     if grading is None:
         return problems
-    grains = None
-    try:
-        needed = {key: section[key] for key in _NEEDED if key in section}
-        sample = Sample.model_validate({**needed, "seeds": 1})
-    except ValidationError:
-        pass
-    else:
+    grains, sample = None, _sample(section)
+    if sample is not None:
         settings = sample.settings()
         problems = _list_problems(settings)
         if not problems:
@@ -137,8 +136,24 @@ def sample_problems(section: Any, *, few_grains: bool = False) -> list[str]:
             allowed = few_grains or sample.allow_unrepresentative
             problems = _grain_problems(settings, grading, grains, allowed)
             problems += _stress_problems(sample, grading)
+            # What is refused for too few grains need not be tried; a preview tells it itself.
+            if not problems and not few_grains:
+                problems = room_problems(settings, grading, grains)
     unit, _, size = unit_of(section["grading"])
     return problems + breakage_problems(section.get("breakage"), grading, grains, unit, size)
+
+
+def _sample(section):
+    """Return the sample of the keys that are checked here, or None where one of them is wrong."""
+    needed = {key: section[key] for key in _NEEDED if key in section}
+    # Where these are wrong they are refused as such, and keep nothing back.
+    others = {key: section[key] for key in ("boundary", "seeds") if key in section}
+    for given in (others, {"seeds": 1}):
+        try:
+            return Sample.model_validate({**needed, **given, "refined_seeds": 0})
+        except ValidationError:
+            continue
+    return None
 
 
 def _history_problems(config):
@@ -211,22 +226,3 @@ def _stress_problems(sample, grading):
             f"{_DEEPEST_OVERLAP:.0%}): ask for less, or raise the stiffness of contact"
         )
     return problems
-
-
-def _folder_problems(folder, samples):
-    """Return which folders of results cannot be written to."""
-    below = [Path("results"), Path("logs"), Path("results/figures"), Path("results/measured")]
-    for name in samples:
-        below += [Path("results", name), Path("results", name + REFINED), Path("logs", name)]
-        below += [Path("results/figures", name)]
-    for path in below:
-        whole = folder / path
-        try:
-            if whole.exists() and not whole.is_dir():
-                yield f"{path} is a file, and results need a folder there: move it"
-            elif whole.is_dir() and not os.access(whole, os.W_OK):
-                yield f"{path} cannot be written to: change its permissions"
-        except OSError:  # of a name too long, which was refused as such
-            continue
-    if not os.access(folder, os.W_OK):
-        yield f"the folder {folder.resolve()} cannot be written to: run in one of your own"

@@ -200,6 +200,10 @@ def number_of(value: Any) -> float | None:
         return None
 
 
+# Of a key that fills the screen, the beginning tells which it is.
+_LONGEST_KEY = 120
+
+
 def one_line(key: Any) -> str:
     r"""Return a key as text that stays on its line, whatever it holds.
 
@@ -218,6 +222,7 @@ def one_line(key: Any) -> str:
     ('two\\nlines', '3')
     """
     text = str(key)
+    text = text if len(text) <= _LONGEST_KEY else text[:_LONGEST_KEY] + "..."
     return text if text.isprintable() else repr(text)[1:-1]
 
 

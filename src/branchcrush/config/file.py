@@ -19,15 +19,21 @@ _CODE_KEY = re.compile(r"__.*__", re.DOTALL)
 _DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9_]*)")
 # References can make a short file as large as one likes.
 _MOST_ENTRIES = 1_000_000
-# A study of a thousand samples has less; Snakemake reads it again for every job.
-_LARGEST = 500_000
+# A study of a thousand samples has less [bytes], and as many keys and values; Snakemake reads it
+# again for every job.
+_LARGEST, _MOST_NODES = 500_000, 60_000
 
 
 class _Loader(yaml.SafeLoader):
     """Refuses what YAML would read silently as something else than what is written."""
 
+    nodes = 0
+
     def compose_node(self, parent, index):
         event = self.peek_event()
+        self.nodes += 1
+        if self.nodes > _MOST_NODES:
+            raise _refused(f"more than {_MOST_NODES} keys and values: put lists into files", event)
         if getattr(event, "tag", None) is not None:
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
             raise _refused(f"{tag} is a tag, and only plain values are read: remove it", event)
@@ -87,44 +93,55 @@ def config_file_problem(path: str | PathLike[str], *, whole: bool = True) -> str
     >>> config_file_problem("nowhere.yaml")[:37]
     'config: there is no file nowhere.yaml'
     """
-    path = Path(path)
-    if path.is_dir():
-        return f"config: {path} is a folder, and must be a text file of keys and values"
+    return _read(Path(path), whole)[0]
+
+
+def _read(path, whole):
+    """Return what keeps a file from being read, and what it holds."""
     if not path.exists():
         return (
             f"config: there is no file {path} in {Path.cwd()}: run where one lies, or name its "
             "folder with --directory"
-        )
+        ), None
+    problem, content = _parsed(path)
+    if problem is None:
+        entries, samples = _entries(content), ", and among them samples" if whole else ""
+        if entries is None:
+            problem = " has a section that contains itself: write it without *"
+        elif entries > _MOST_ENTRIES:
+            problem = " has more than a million entries by its *: write it without them"
+        elif code := code_problem(content):
+            problem = f": {code}"
+        elif not isinstance(content, dict) or (whole and "samples" not in content):
+            problem = f" must hold keys and values{samples}"
+        else:
+            return None, content
+    return f"config: {path}{problem}", None
+
+
+def _parsed(path):
+    """Return what is wrong with a file as such, said of its name, and what it holds."""
     try:
+        if path.is_dir():
+            return " is a folder, and must be a text file of keys and values", None
         size = path.stat().st_size
         if size > _LARGEST:
             return (
-                f"config: {path} has {size / 1e6:.1f} MB, and may have {_LARGEST / 1e6:g} MB: "
-                "put lists of sizes into files of their own"
-            )
-        content = yaml.load(path.read_text(encoding="utf-8-sig"), Loader=_Loader)
+                f" has {size / 1e6:.1f} MB, and may have {_LARGEST / 1e6:g} MB: put lists of sizes "
+                "into files of their own"
+            ), None
+        return None, yaml.load(path.read_text(encoding="utf-8-sig"), Loader=_Loader)
     except UnicodeDecodeError:
-        return f"config: {path} is no text in UTF-8: save it as such"
+        return " is no text in UTF-8: save it as such", None
     except OSError as error:
-        return f"config: {path} cannot be read: {error.strerror}"
+        return f" cannot be read: {error.strerror}", None
     except yaml.MarkedYAMLError as error:
         line = error.problem_mark.line + 1 if error.problem_mark else "?"
-        return f"config: {path}, line {line}: {_plain(error.problem)}; mend the YAML there"
+        return f", line {line}: {_plain(error.problem)}; mend the YAML there", None
     except yaml.YAMLError as error:
-        return f"config: {path} is no YAML: {str(error).splitlines()[0]}"
+        return f" is no YAML: {str(error).splitlines()[0]}", None
     except (ValueError, RecursionError) as error:  # a date in month 13; a thousand brackets
-        return f"config: {path} is no usable YAML: {error}"
-    entries = _entries(content)
-    if entries is None:
-        return f"config: {path} has a section that contains itself: write it without *"
-    if entries > _MOST_ENTRIES:
-        return f"config: {path} has more than a million entries by its *: write it without them"
-    if problem := code_problem(content):
-        return f"config: {path}: {problem}"
-    if not isinstance(content, dict) or (whole and "samples" not in content):
-        samples = ", and among them samples" if whole else ""
-        return f"config: {path} must hold keys and values{samples}"
-    return None
+        return f" is no usable YAML: {error}", None
 
 
 def config_file_content(path: str | PathLike[str]) -> dict[str, Any]:
@@ -149,9 +166,10 @@ def config_file_content(path: str | PathLike[str]) -> dict[str, Any]:
     Traceback (most recent call last):
     branchcrush.errors.ConfigError: config: there is no file nowhere.yaml in ...
     """
-    if problem := config_file_problem(path):
+    problem, content = _read(Path(path), whole=True)
+    if problem:
         raise ConfigError(problem)
-    return yaml.load(Path(path).read_text(encoding="utf-8-sig"), Loader=_Loader)
+    return content
 
 
 def code_problem(content: Any) -> str | None:

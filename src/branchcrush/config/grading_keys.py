@@ -7,20 +7,29 @@ from pydantic import AfterValidator, Field
 from branchcrush.config.fields import Allowed, number, refusal
 from branchcrush.config.units import LARGEST, SMALLEST, UNITS
 
-
-def _possible(size, info):
-    unit = info.data.get("unit")
-    if unit and not SMALLEST <= size * UNITS[unit] <= LARGEST:
-        raise refusal(
-            f"must be from {SMALLEST:g} m to {LARGEST:g} m, and is {size * UNITS[unit]:.3g} m: "
-            "check it and the unit",
-            unit=unit,
-        )
-    return size
+# Parameters of a distribution may lie far beyond the sizes that it is cut at.
+_BEYOND = 1e6
 
 
-Length = number(above=0, unit_of="unit")
-Size = Annotated[Length, AfterValidator(_possible)]
+def _between(smallest, largest):
+    """Return what refuses lengths outside two [m]."""
+
+    def possible(length, info):
+        unit = info.data.get("unit")
+        if unit and not smallest <= length * UNITS[unit] <= largest:
+            raise refusal(
+                f"must be from {smallest:g} m to {largest:g} m, and is {length * UNITS[unit]:.3g} "
+                "m: check it and the unit",
+                unit=unit,
+            )
+        return length
+
+    return AfterValidator(possible)
+
+
+_LENGTH = number(above=0, unit_of="unit")
+Length = Annotated[_LENGTH, _between(SMALLEST / _BEYOND, LARGEST * _BEYOND)]
+Size = Annotated[_LENGTH, _between(SMALLEST, LARGEST)]
 _FORM_TELLS = Field(description="What the form tells of: the number of grains, or their mass.")
 WEIGHTS_ARE = Field(description="What the weights are of: the number of grains, or their mass.")
 SIZES_ARE = Field(description="What sizes are: of a grain its radius or its diameter.")

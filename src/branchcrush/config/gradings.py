@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo, field_validator
 
 from branchcrush.config.curves import check_curve, check_share
-from branchcrush.config.fields import Allowed, Positive, Section, number, refusal
+from branchcrush.config.fields import Allowed, Section, number, refusal
 from branchcrush.config.grading_keys import (
     SIZES_ARE,
     WEIGHTS_ARE,
@@ -220,7 +220,7 @@ SimpleGrading = Annotated[_Simple, Field(discriminator="form")]
 class Component(Section):
     """One part of a mixture."""
 
-    weight: Positive = Field(
+    weight: number(least=1e-15, most=1e15) = Field(
         description="Its part, by number or by mass, over the sum of all weights [-].", examples=[1]
     )
     grading: SimpleGrading = Field(description="Sizes of its grains: any form but a mixture.")

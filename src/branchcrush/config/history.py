@@ -30,7 +30,7 @@ def _loads(quantity: str) -> Any:
         loads = []
         for place, item in enumerate(value, start=1):
             load = number_of(item)
-            if load is None or not np.isfinite(load):
+            if load is None:
                 raise refusal(f"{allowed}; number {place} is none")
             if problem := load_problem(float(load), quantity):
                 problem = problem.replace("say unit: percent", "divide by 100")

@@ -43,6 +43,8 @@ from branchcrush.loading.targets import (
 )
 
 _MOST_SEEDS = 1000
+# That are named at once.
+_MOST_PROBLEMS = 100
 _GRAINS = NumberOrNone(least=2, most=MOST_GRAINS, whole=True)
 _SEEDS = Number(least=1, most=_MOST_SEEDS, whole=True, hint=", or a list of as many seeds")
 _SEEDS_SCHEMA = WithJsonSchema(
@@ -326,5 +328,8 @@ def checked_config(raw: Any) -> Config:
     try:
         return Config.model_validate(raw)
     except ValidationError as error:
-        problems = [problem(detail, Config) for detail in error.errors()]
+        details = error.errors()
+        problems = [problem(detail, Config) for detail in details[:_MOST_PROBLEMS]]
+        more = len(details) - _MOST_PROBLEMS
+        problems += [f"and {more} more problem{'s' * (more > 1)}"] if more > 0 else []
     raise ConfigError("\n".join(f"config: {line}" for line in problems))

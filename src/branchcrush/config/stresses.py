@@ -77,7 +77,8 @@ def increasing_stresses(value: Any) -> list[float] | None:
 def _range(value):
     """Return the stresses of a range, even in the logarithm."""
     if set(value) != set(_RANGE):
-        raise _refused(f"its keys are {', '.join(map(one_line, value)) or 'none'}")
+        keys = ", ".join(map(one_line, list(value)[:5])) or "none"
+        raise _refused(f"its keys are {keys}")
     states = number_of(value["states"])
     if states is None or states != int(states) or not 2 <= states <= _MOST_STATES:
         raise _refused(f"states must be a whole number from 2 to {_MOST_STATES}")

@@ -11,6 +11,7 @@ from branchcrush.files.channel_edges import edges_of_channels, regular
 from branchcrush.files.columns import Table
 from branchcrush.files.declared import Declared
 from branchcrush.files.rows import Row
+from branchcrush.files.sieve_tables import sum_of
 from branchcrush.gradings.tables import from_density, from_histogram
 
 # How far the sum of percent may be from 100, and an integral from 1 or 100, of it.
@@ -89,7 +90,7 @@ def _numbers_against_density(words, sizes, values):
     rising = all(high >= low for low, high in pairwise(values))
     if many and rising and values[-1] == 100:
         return ["the values grow to 100, as percent finer do (form: sieve)"]
-    if len(sizes) >= 4 and abs(math.fsum(values) - 100) <= _ROUNDED:
+    if len(sizes) >= 4 and abs(sum_of(values) - 100) <= _ROUNDED:
         return ["the values sum to 100, as percent in each channel do (form: histogram)"]
     if words.percent():
         return [f'the words "{words.value}" say percent, as of a channel (form: histogram)']

@@ -1,6 +1,5 @@
 """Channels and densities from the rows of a table."""
 
-import math
 import re
 
 from branchcrush.errors import GradingError
@@ -10,7 +9,7 @@ from branchcrush.files.columns import Table
 from branchcrush.files.declared import Declared
 from branchcrush.files.openings import label_of, size_of
 from branchcrush.files.rows import Row
-from branchcrush.files.sieve_tables import value_of
+from branchcrush.files.sieve_tables import sum_of, value_of
 
 _RANGE = re.compile(r"\s*(?P<low>[^\s].*?)\s*(?:-|–|—|\.\.|\bto\b|\bbis\b|/)\s*(?P<high>\d.*)")
 
@@ -89,7 +88,7 @@ def channel_edges(
         problems = ["line 1: no row of numbers; give a size and a value of each channel"]
     if problems:
         return [], [], [], problems
-    whole = math.fsum(row.values[-1] for row in rows if row.values[-1] is not None)
+    whole = sum_of(row.values[-1] for row in rows if row.values[-1] is not None)
     problems = [
         f"line {line}: the total is {total:g}, and the rows sum to {whole:g}: a row is missing or "
         "wrong: correct it, or the total"
@@ -135,10 +134,10 @@ def _rows(table, declared, name, edges=False, unfilled=False):
         for label in labels:
             try:
                 sizes.append(size_of(label, "size", declared.unit))
-            except GradingError:
-                wrong.append(
-                    f"size = {label.text!r} is no finite number; correct it or remove the line"
-                )
+            except GradingError as error:
+                no_number = f"{label.text!r} is no finite number"
+                words = error if label.kind == "number" else no_number
+                wrong.append(f"size = {words}; correct it or remove the line")
         wrong += [
             f"size = {size:g}; must be above 0: correct or remove it"
             for size in sizes[:1]

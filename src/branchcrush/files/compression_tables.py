@@ -35,6 +35,8 @@ _VALUE_WORDS = {
 }
 # A void ratio beyond this is a percent, or none.
 _LARGEST_VOID_RATIO = 20.0
+# In any of the units.
+_LARGEST_STRESS = 1e15
 _NAMES = {"void_ratio": "void ratio", "strain": "strain", "percent_strain": "percent strain"}
 # Of first loading: two parameters and what tells how sure they are.
 FEWEST_ROWS = 5
@@ -214,6 +216,8 @@ def _impossible(rows: list[Row], values: Values, initial: float | None) -> list[
                 f"line {line}: stress = {stress:g} is below 0; compression is positive here: "
                 "change the sign of the column"
             )
+        elif stress > _LARGEST_STRESS:
+            problems.append(f"line {line}: stress = {stress:g} is more than there is: correct it")
         if values == "void_ratio":
             if not 0 < value <= _LARGEST_VOID_RATIO:
                 problems.append(

@@ -22,6 +22,8 @@ _TOTAL = {
     "total", "summe", "sum", "gesamt", "totals", "somme", "total mass", "sum total", "gesamtmasse",
     "masse totale", "gesamtsumme", "insgesamt", "grand total", "total weight",
 }  # fmt: skip
+# So far beyond any grain that it is no size at all [mm]; what is nearer is refused by its unit.
+_LEAST, _MOST = 1e-12, 1e12
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
 _SIZE = re.compile(rf"({_NUMBER})\s*([a-z.\"']+)?")
 _MESH = re.compile(
@@ -104,13 +106,17 @@ def size_of(label: Label, openings: str, unit: str) -> float:
     >>> size_of(label_of("-1"), "phi", "mm"), size_of(label_of("40"), "astm_e11", "um")
     (2.0, 425.0)
     """
-    if openings == "size" and label.kind in ("number", "below") and label.unit in (None, unit):
-        return label.value
-    if openings == "size" and label.kind == "inch" and unit == "inch":
-        return label.value
-    size = _size_in_mm(label, openings) / UNITS_IN_MM[unit]
-    # 0.425 / 1e-3 has one digit too many.
-    return float(f"{size:.15g}") if openings != "phi" else size
+    inch = label.kind == "inch" and unit == "inch"
+    as_it_stands = inch or (label.kind in ("number", "below") and label.unit in (None, unit))
+    if openings == "size" and as_it_stands:
+        size = label.value
+    else:
+        size = _size_in_mm(label, openings) / UNITS_IN_MM[unit]
+        # 0.425 / 1e-3 has one digit too many.
+        size = float(f"{size:.15g}") if openings != "phi" else size
+    if size > 0 and not _LEAST <= size * UNITS_IN_MM[unit] <= _MOST:
+        raise GradingError(f"{label.text[:60]!r} is no size of a grain")
+    return size
 
 
 def _size_in_mm(label, openings):

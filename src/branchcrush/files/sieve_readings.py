@@ -1,6 +1,5 @@
 """Whether a sieve table is what it is declared to be: its words and numbers against the keys."""
 
-import math
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -9,7 +8,7 @@ from branchcrush.files.columns import Table
 from branchcrush.files.declared import WORDS, Declared
 from branchcrush.files.openings import UNITS_IN_MM, Label, label_of
 from branchcrush.files.rows import Row
-from branchcrush.files.sieve_tables import sieve_curve, value_of
+from branchcrush.files.sieve_tables import sieve_curve, sum_of, value_of
 from branchcrush.gradings.sieves import ASTM_E11_NUMBERS, TYLER_MESHES, is_nominal
 from branchcrush.gradings.tables import from_percent_finer
 
@@ -138,7 +137,7 @@ def _pattern(rows, declared):
     values = [value for _, value in sorted(pairs)]
     up = sum(high > low for low, high in pairwise(values))
     down = sum(high < low for low, high in pairwise(values))
-    if len(values) > 2 and abs(math.fsum(values) - 100) <= 1 and max(values) < 99.5:
+    if len(values) > 2 and abs(sum_of(values) - 100) <= 1 and max(values) < 99.5:
         return "sum"
     if declared.scale_of_openings == "phi":
         up, down = down, up

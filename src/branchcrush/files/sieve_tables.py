@@ -1,6 +1,7 @@
 """The curve of a sieving from the rows of its table, whatever its columns are declared to be."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -100,6 +101,28 @@ def value_of(cell: str) -> float | None:
     bare = cell.strip().rstrip("%").removesuffix("g").strip()
     number = float(bare) if is_number(bare) else math.nan
     return number if math.isfinite(number) else None
+
+
+def sum_of(values: Iterable[float]) -> float:
+    """Return a sum that order and rounding do not change; inf where it is beyond all numbers.
+
+    Parameters
+    ----------
+    values : iterable of float
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> sum_of([0.1] * 10), sum_of([1e308, 1e308])
+    (1.0, inf)
+    """
+    try:
+        return math.fsum(values)
+    except OverflowError:
+        return math.inf
 
 
 def _parsed(rows, declared, name):
@@ -231,7 +254,7 @@ def _from_cumulative(rows, pans, totals, declared, name):
 def _from_retained(rows, pans, totals, declared):
     """Return the curve of what each sieve holds, the pan's below the last of them."""
     pan = sum(value or 0.0 for _, value in pans)
-    whole = math.fsum([pan, *(row.values[1] for row in rows)])
+    whole = sum_of([pan, *(row.values[1] for row in rows)])
     problems = [
         f"line {line}: the total is {value:g}, and the rows sum to {whole:g}: a row is missing or "
         "wrong: correct it, or the total"
@@ -241,6 +264,8 @@ def _from_retained(rows, pans, totals, declared):
     first = rows[0].line if rows else 1
     if declared.kind == "percent_retained" and abs(whole - 100) > 100 * _ROUNDED:
         problems.append(_wrong_sum(first, whole, bool(pans)))
+    if whole == math.inf:
+        problems.append(f"line {first}: the masses sum to more than any number: give them in grams")
     if whole <= 0:
         problems.append(f"line {first}: nothing is retained on any sieve: one must hold something")
     if problems:

@@ -8,6 +8,9 @@ from os import PathLike
 
 from branchcrush.errors import GradingError
 
+# Unpacked, and in cells: a table of a million sizes has less. A few bytes can stand for any number.
+_LARGEST, _MOST_CELLS = 200_000_000, 3_000_000
+
 
 def workbook_cells(
     raw: bytes, path: str | PathLike[str], sheet: str | int | None = None
@@ -49,18 +52,33 @@ def workbook_cells(
     import openpyxl  # slow to import, for workbooks alone
 
     try:
+        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+            size = sum(each.file_size for each in archive.infolist())
+        if size > _LARGEST:
+            raise GradingError(
+                f"{path}: has {size / 1e6:.0f} MB when it is unpacked, and a table may have "
+                f"{_LARGEST / 1e6:.0f} MB: save the one sheet as CSV"
+            )
         with warnings.catch_warnings():
             # Of styles and extensions that no table of numbers needs.
             warnings.simplefilter("ignore")
             shown = openpyxl.load_workbook(io.BytesIO(raw), data_only=True)
             typed = openpyxl.load_workbook(io.BytesIO(raw))
-    except (zipfile.BadZipFile, KeyError, ValueError, OSError, EOFError, AttributeError, TypeError):
+    except GradingError:
+        raise
+    except Exception:  # whatever openpyxl meets in what is none: it has no error of its own
         raise GradingError(
             f"{path}: is no text in UTF-8 and no workbook (.xlsx); save the table as CSV in UTF-8 "
             "or as .xlsx"
         ) from None
     names = [each.title for each in shown.worksheets]
     name = _chosen(names, sheet, path)
+    cells = shown[name].max_row * shown[name].max_column
+    if cells > _MOST_CELLS:
+        raise GradingError(
+            f"{path}: sheet '{name}' goes to row {shown[name].max_row} and column "
+            f"{shown[name].max_column}, and may have {_MOST_CELLS} cells: save the table alone"
+        )
     rows = [
         [_text(cell, written.value) for cell, written in zip(row, formulas, strict=True)]
         for row, formulas in zip(shown[name].iter_rows(), typed[name].iter_rows(), strict=True)
@@ -70,6 +88,8 @@ def workbook_cells(
 
 def _chosen(names, sheet, path):
     """Return the name of the sheet that is asked for."""
+    if not names:
+        raise GradingError(f"{path}: has no sheet of cells; save the table as CSV in UTF-8")
     if sheet is None:
         return names[0]
     if sheet in names:

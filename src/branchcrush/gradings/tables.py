@@ -77,7 +77,9 @@ def from_percent_finer(
     from scipy.interpolate import PchipInterpolator, make_interp_spline
 
     points = np.log(radius), percent / 100
-    curve = make_interp_spline(*points, k=1) if straight else PchipInterpolator(*points)
+    # Of next to no percent a slope has no reciprocal, and PCHIP takes it for level.
+    with np.errstate(over="ignore"):
+        curve = make_interp_spline(*points, k=1) if straight else PchipInterpolator(*points)
     slope = curve.derivative()
 
     def density_by_mass(r: NDArray) -> NDArray:
@@ -132,6 +134,10 @@ def from_histogram(
     usable = shares.ndim == 1 and np.isfinite(shares).all() and np.all(shares >= 0)
     if not (usable and np.any(shares > 0)):
         raise GradingError("channels must hold 0 or more each, and one of them more")
+    # To at most 1, by a power of two, which rounds nothing: their scale is any, and a sum or a
+    # quotient of the largest numbers is none.
+    largest: int = np.frexp(shares.max())[1]
+    shares = np.asarray(np.ldexp(shares, -largest), dtype=float)
     edges, _ = _columns(edges, np.append(0.0, shares))
     held = np.flatnonzero(shares)
     edges, shares = edges[held[0] : held[-1] + 2], shares[held[0] : held[-1] + 1]

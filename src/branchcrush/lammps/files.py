@@ -13,6 +13,8 @@ import pyarrow as pa
 from numpy.typing import ArrayLike
 from pyarrow import csv
 
+from branchcrush.files.replacing import replacing
+
 _ROWS_AT_ONCE = 10_000
 _HEADER_LINES = 9
 _BUFFER = 2**20  # [bytes]
@@ -64,7 +66,8 @@ def write_data_file(
     lines += [f"{-half!r} {half!r} {axis}lo {axis}hi" for axis in "xyz"]
     # The density only fills its column: the grain mass is set by mod.contact.
     lines += ["", "Atoms # sphere  (id type diameter density x y z)", ""]
-    with open(path, "w", encoding="ascii") as file:
+    # A packing that breaks off would be read as a smaller one.
+    with replacing(path) as binary, io.TextIOWrapper(binary, encoding="ascii") as file:
         file.write("\n".join(lines) + "\n")
         # Python's own floats print in a fraction of the time that NumPy's take; all of a large
         # packing at once would fill the memory.

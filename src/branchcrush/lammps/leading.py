@@ -56,6 +56,8 @@ def led(
     saved, run, done = checkpoint.saved(), None, 0
     if saved is None:
         session.include("setup")
+        if session.failure:
+            raise Ended(session.failure)
         run = begun()
         run.keep(0)
     else:

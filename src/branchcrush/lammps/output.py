@@ -1,6 +1,7 @@
 """What a run of `lammps_inputs/in.compress` leaves, made into tables state by state."""
 
 from collections.abc import Mapping
+from contextlib import contextmanager
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -50,23 +51,28 @@ def read_compression(
     Raises
     ------
     SimulationError
-        When a contact is listed twice, or a dump does not hold a frame for each state.
+        When no state was saved, a contact is listed twice, or a file is not whole: a dump without
+        a frame for each state, or one that breaks off.
     """
     folder = Path(folder)
-    scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
+    with _whole():
+        scalars, steps = (_columns(folder / f"{name}.csv") for name in ("states", "steps"))
     lines = [dict(zip(scalars, line, strict=True)) for line in zip(*scalars.values(), strict=True)]
-    frames = [read_dump(folder / name) for name in DUMPS]
+    if not lines:
+        raise SimulationError(stopped or "LAMMPS saved no state: is the disk full?")
+    frames = [_frames(folder / name) for name in DUMPS]
     compressed = {}
     state = partial(
         _state, variables=variables, first_edge=scalars["edge"][0], compressed=compressed
     )
     # Unlike a loop over zip, map lets go of a frame before it reads the next one.
-    path, contacts, walls = zip(*map(state, lines, *frames), strict=True)
-    if len(path) < len(lines) or any(next(frame, None) is not None for frame in frames):
+    found = list(map(state, lines, *frames))
+    if len(found) < len(lines) or any(next(frame, None) is not None for frame in frames):
         raise SimulationError(
             f"LAMMPS saved {len(lines)} states, and other numbers of frames in {DUMPS}: "
             "is the disk full?"
         )
+    path, contacts, walls = zip(*found, strict=True)
     path[-1]["stopped"] = stopped
     path = {name: np.array([row[name] for row in path]) for name in path[0]}
     # Work is counted from the end of the approach, the second state: what it holds was put in.
@@ -81,6 +87,24 @@ def read_compression(
         _steps(steps, path["solid_fraction"][0] * path["volume_m3"][0]),
         compressed,
     )
+
+
+@contextmanager
+def _whole():
+    """Refuse files that break off: LAMMPS does not look whether what it prints is written."""
+    try:
+        yield
+    except (ValueError, IndexError) as error:
+        raise SimulationError(
+            f"what LAMMPS saved is not whole ({str(error).partition(chr(10))[0]}): is the disk "
+            "full? free some space, then repeat the command"
+        ) from error
+
+
+def _frames(path):
+    """Yield the frames of a dump."""
+    with _whole():
+        yield from read_dump(path)
 
 
 def _columns(path):

@@ -161,8 +161,7 @@ def run_task(
     else:
         with scratch_folder("branchcrush-") as folder:
             result = _run_on_ranks(name, payload, arguments, ranks, folder, log)
-    with open(log, "a", encoding="utf-8") as file:
-        file.write(f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
+    _note(log, f"branchcrush: {result['seconds']:.3f} s inside LAMMPS\n")
     if result["error"]:
         raise SimulationError(f"LAMMPS stopped: {result['error']} (log: {log})")
     return result["stopped"]
@@ -235,13 +234,18 @@ def _run_on_ranks(name, payload, arguments, ranks, folder, log):
         raise
     result = folder / "result.json"
     if not result.exists():
-        with open(log, "a", encoding="utf-8") as file:
-            file.write(output)
+        _note(log, output)
         raise SimulationError(
             f"LAMMPS ended on {ranks} ranks without a result, exit code {process.returncode}: was "
             f"one killed, for want of memory? (log: {log})"
         )
     return json.loads(result.read_text(encoding="utf-8"))
+
+
+def _note(log, text):
+    """Write at the end of a log; one that cannot be written must not hide why LAMMPS stopped."""
+    with contextlib.suppress(OSError), open(log, "a", encoding="utf-8") as file:
+        file.write(text)
 
 
 def _launcher():

@@ -7,6 +7,7 @@ import numpy as np
 from branchcrush.errors import ReadingError
 from branchcrush.readers.cells import Cell
 from branchcrush.readers.frames import ColumnFrame
+from branchcrush.readers.limits import LARGEST_ID
 from branchcrush.readers.texts import lines_of, numbers_of, significant_digits
 
 
@@ -72,7 +73,7 @@ def _frame(lines, place, path):
         if place >= len(lines):
             raise _broken(path, begun)
         head = lines[place].split()
-        if head[:1] != ["ITEM:"]:
+        if head[:1] != ["ITEM:"] or len(head) < 2:
             raise ReadingError(
                 f"{path}, line {place + 1}: 'ITEM: ...' is due, and there is "
                 f"{lines[place][:60]!r}: is the number of rows above it right?"
@@ -89,6 +90,8 @@ def _frame(lines, place, path):
         place += 1 + size
     step = _number(items.get("TIMESTEP"), path, begun)
     rows, names = _number(items["NUMBER"], path, begun), head[2:]
+    if not 0 <= rows <= len(lines):
+        raise _broken(path, begun)
     first, place = place + 1, place + 1 + int(rows)
     where = f"{path}, step {step:.0f}" if step is not None else path
     block = lines[first:place]
@@ -118,11 +121,14 @@ def _number(item, path, line):
     if item is None:
         return None
     try:
-        return float(item[1][0])
+        number = float(item[1][0])
     except ValueError:
+        number = np.nan
+    if number != np.floor(number) or abs(number) > LARGEST_ID:
         raise ReadingError(
-            f"{path}, frame at line {line + 1}: {item[1][0][:40]!r} is no number"
-        ) from None
+            f"{path}, frame at line {line + 1}: {item[1][0][:40]!r} is no whole number"
+        )
+    return number
 
 
 def _cell(item, where):
@@ -158,6 +164,7 @@ def _placed(columns, cell, where):
         if suffix != "u":
             if cell is None:
                 raise ReadingError(f"{where}: scaled coordinates, and no BOX BOUNDS to scale by")
-            places = cell.origin + places @ cell.vectors
+            with np.errstate(all="ignore"):  # what is no number then is refused as such
+                places = cell.origin + places @ cell.vectors
         return columns | dict(zip("xyz", places.T, strict=True))
     return columns

@@ -13,6 +13,7 @@ from branchcrush.readers.liggghts import DEFAULT, named_columns
 from branchcrush.readers.mercury import read_data, read_fstat
 from branchcrush.readers.roles import Roles, names_of
 from branchcrush.readers.tables import read_columns, read_yade_text
+from branchcrush.readers.texts import listed
 from branchcrush.readers.vtk import read_vtk
 
 Reader: TypeAlias = Callable[[str | PathLike[str]], list[ColumnFrame]]
@@ -149,7 +150,7 @@ def contact_roles(frame: ColumnFrame, source: Source) -> Roles:
     if source.format == "lammps":
         raise ReadingError(
             f"{frame.where}: packing.columns is needed, since the columns of a dump local are the "
-            f"user's own; it has {', '.join(frame.columns)}"
+            f"user's own; it has {listed(frame.columns)}"
         )
     if source.format == "liggghts":
         known = ("start", "end", "id1", "id2", "overlap", "point")

@@ -112,6 +112,13 @@ def matched(
     i, j = first[~at_wall], second[~at_wall]
     vector = _branches(grains, pairs, cell, i, j, error)
     length = np.linalg.norm(vector, axis=1)
+    if np.any(length == 0.0):
+        one = int(np.argmin(length))
+        first, second = grains.ids[i[one]], grains.ids[j[one]]
+        same = f"grains {first} and {second} have their centres at one place, and a contact"
+        raise _refused(
+            where, [f"{same}: is an id given twice, or a contact of a grain with itself?"]
+        )
     touch = grains.radii[i] + grains.radii[j] - length
     overlap = pairs.get("overlap", touch)
     smaller = np.minimum(grains.radii[i], grains.radii[j])

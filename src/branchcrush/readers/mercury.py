@@ -46,7 +46,8 @@ def read_data(path: str | PathLike[str]) -> list[ColumnFrame]:
             rows, time, *bounds = (float(word) for word in words)
         except ValueError:
             rows, time, bounds = -1.0, 0.0, []
-        if len(bounds) != 6 or rows < 0 or rows != int(rows):
+        whole = 0 <= rows <= len(lines) and rows == int(rows)
+        if len(bounds) != 6 or not whole or not np.isfinite(time):
             raise ReadingError(
                 f"{path}, line {place + 1}: 'N time xmin ymin zmin xmax ymax zmax' is due, and "
                 f"there is {lines[place][:60]!r}: write it in three dimensions, by "
@@ -112,22 +113,26 @@ def read_fstat(path: str | PathLike[str]) -> list[ColumnFrame]:
         try:
             time = float(head[0])
         except (ValueError, IndexError):
+            time = np.nan
+        if not np.isfinite(time):
             raise ReadingError(
                 f"{path}, line {place + 1}: '# time info' is due, and there is "
                 f"{lines[place][:60]!r}"
-            ) from None
+            )
         if not all(line.startswith("#") for line in lines[place:first]) or first > len(lines):
             raise ReadingError(f"{path}, line {place + 1}: three lines with # begin a frame")
         block = lines[first:end]
         values = numbers_of(block, _FSTAT_COLUMNS, str(path), first=first + 1).T
         normal, tangent = values[10:13].T, values[13:16].T
+        with np.errstate(all="ignore"):  # what is no number then is refused as such
+            force = normal * values[8][:, None] + tangent * values[9][:, None]
         columns = {
             "id1": values[1],
             "id2": values[2],
             "point": values[3:6].T,
             "overlap": values[6],
             "normal_force": values[8],
-            "force": normal * values[8][:, None] + tangent * values[9][:, None],
+            "force": force,
         }
         where = f"{path}, time {time:g}"
         frames.append(ColumnFrame(where, columns, time, digits=significant_digits(block)))

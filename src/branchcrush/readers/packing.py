@@ -16,6 +16,7 @@ from branchcrush.readers.layouts import (
     grain_reader,
     grain_roles,
 )
+from branchcrush.readers.limits import sound_cell
 from branchcrush.readers.matching import Matching, Touching, matched
 from branchcrush.readers.roles import Grains, grains_of, in_roles
 
@@ -147,7 +148,7 @@ def _together(grains, contacts, match):
 def _moment(one: ColumnFrame, other: ColumnFrame, source: Source) -> Moment:
     """Return the state that a frame of grains and one of contacts make."""
     grains = grains_of(one, grain_roles(one, source), source.length)
-    cell = _cell(one, other, source)
+    cell = sound_cell(_cell(one, other, source), grains.positions, grains.radii, one.where)
     digits = min(one.digits, 17)
     how = Matching(
         "twice" if source.format == "mercurydpm" else source.each_pair,

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.frames import ColumnFrame
+from branchcrush.readers.limits import FURTHEST, LARGEST_ID, LARGEST_NUMBER, size_problem
+from branchcrush.readers.texts import listed
 
 # How many columns make each, and what each is in the words of an error.
 CONTACT_ROLES = {
@@ -74,7 +76,7 @@ def in_roles(frame: ColumnFrame, roles: Roles) -> dict[str, NDArray]:
     Raises
     ------
     ReadingError
-        When the frame has no such column.
+        When the frame has no such column, or numbers that no grain or contact has.
 
     Examples
     --------
@@ -85,9 +87,18 @@ def in_roles(frame: ColumnFrame, roles: Roles) -> dict[str, NDArray]:
     missing = [name for name in names_of(roles) if name not in frame.columns]
     if missing:
         raise ReadingError(
-            f"{frame.where}: it has no column {', '.join(missing)}; it has "
-            f"{', '.join(frame.columns)}: name the columns as they stand there"
+            f"{frame.where}: it has no column {listed(missing)}; it has "
+            f"{listed(frame.columns)}: name the columns as they stand there"
         )
+    problems = []
+    for role, name in roles.items():
+        most = LARGEST_ID if role.startswith("id") else LARGEST_NUMBER
+        for part in [name] if isinstance(name, str) else name:
+            largest = float(np.abs(frame.columns[part]).max(initial=0.0))
+            if not largest <= most:
+                problems.append(f"{frame.where}: column {part} holds {largest:.3g}, which is none")
+    if problems:
+        raise ReadingError("\n".join(f"{each}; write it again" for each in problems))
     return {
         role: frame.columns[name]
         if isinstance(name, str)
@@ -138,6 +149,10 @@ def grains_of(frame: ColumnFrame, roles: Roles, length: float) -> Grains:
         problems.append(f"these ids of grains stand more than once: {some(found[times > 1])}")
     if np.any(radii <= 0):
         problems.append(f"the radius is not above 0 of the grains {some(ids[radii <= 0])}")
+    elif radii.size:
+        problems += size_problem(2.0 * radii * length)
+    if np.any(np.abs(columns["position"]) * length > FURTHEST):
+        problems.append(f"a grain is more than {FURTHEST:g} m from the origin: is the unit right?")
     if problems:
         raise ReadingError("\n".join(f"{frame.where}: {problem}" for problem in problems))
     order = np.argsort(ids, kind="stable")

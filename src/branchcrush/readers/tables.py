@@ -5,7 +5,7 @@ from os import PathLike
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.frames import ColumnFrame
-from branchcrush.readers.texts import lines_of, numbers_of, significant_digits, text_of
+from branchcrush.readers.texts import lines_of, listed, numbers_of, significant_digits, text_of
 
 _DELIMITERS = (",", ";", "\t")
 # What export.text and export.textExt of YADE write, by the word after #format.
@@ -59,7 +59,7 @@ def read_columns(path: str | PathLike[str], names: Sequence[str]) -> ColumnFrame
     missing = [name for name in names if name not in found]
     if missing:
         raise ReadingError(
-            f"{path}: it has no column {', '.join(missing)}; its header has {', '.join(found)}: "
+            f"{path}: it has no column {listed(missing)}; its header has {listed(found)}: "
             "name the columns as they stand there"
         )
     block = [line for line in lines[place + 1 :] if line.strip()]
@@ -102,8 +102,8 @@ def read_yade_text(path: str | PathLike[str]) -> ColumnFrame:
     [6.0]
     """
     lines = lines_of(path)
-    told = [line.split()[1] for line in lines if line.startswith("#format") and " " in line]
-    kind = told[0] if told else "x_y_z_r"
+    told = [line.split()[1:] for line in lines if line.startswith("#format")]
+    kind = told[0][0][:60] if told and told[0] else "x_y_z_r"
     if kind not in _YADE:
         raise ReadingError(
             f"{path}: its format is {kind}, and one of {', '.join(_YADE)} is needed: write it by "

@@ -1,8 +1,9 @@
 """Text files of other codes: plain or packed, their blocks of numbers, and how many digits."""
 
 import io
+import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 
@@ -15,6 +16,9 @@ from branchcrush.errors import ReadingError
 _PACKED = {".gz": "gzip", ".zst": "zstd", ".bz2": "bz2"}
 _MANTISSA = re.compile(r"^[+-]?0*\.?0*(?P<digits>[\d.]*)(?:[eE][+-]?\d+)?$")
 _TRUE, _FALSE = (re.compile(rf"\b{word}\b", re.IGNORECASE) for word in ("true", "false"))
+# Unpacked: ten million grains and their contacts have less.
+_LARGEST, _BLOCK = 4_000_000_000, 1 << 20
+_MOST_NAMES, _LONGEST_NAME = 20, 60
 # So many lines tell how many digits a file has.
 _LINES_OF_DIGITS = 200
 
@@ -46,10 +50,13 @@ def text_of(path: str | PathLike[str]) -> str:
     """
     kind = _PACKED.get(Path(path).suffix.lower())
     try:
-        data = Path(path).read_bytes()
-        if kind:
-            with pa.CompressedInputStream(pa.BufferReader(data), kind) as unpacked:
-                data = unpacked.read()
+        data = Path(path).read_bytes() if os.path.getsize(path) <= _LARGEST else None
+        if kind and data is not None:
+            data = _unpacked(data, kind)
+        if data is None:
+            raise ReadingError(
+                f"{path}: has more than {_LARGEST / 1e9:g} GB: write fewer frames into one file"
+            )
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise ReadingError(
@@ -64,6 +71,39 @@ def text_of(path: str | PathLike[str]) -> str:
     if not text.strip():
         raise ReadingError(f"{path}: is empty")
     return text
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names in a list that one can read, however many and long they are.
+
+    Parameters
+    ----------
+    names : iterable of str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> listed(["x", "y"]), listed("abcdefghijklmnopqrstuvwxyz")[-17:]
+    ('x, y', 's, t and 6 others')
+    """
+    names = [name if len(name) <= _LONGEST_NAME else name[:_LONGEST_NAME] + "..." for name in names]
+    more = len(names) - _MOST_NAMES
+    return ", ".join(names[:_MOST_NAMES]) + (f" and {more} others" if more > 0 else "")
+
+
+def _unpacked(data, kind):
+    """Return what is packed, or None of more than a text may have: few bytes can stand for it."""
+    blocks, size = [], 0
+    with pa.CompressedInputStream(pa.BufferReader(data), kind) as file:
+        while block := file.read(_BLOCK):
+            blocks.append(block)
+            size += len(block)
+            if size > _LARGEST:
+                return None
+    return b"".join(blocks)
 
 
 def lines_of(path: str | PathLike[str]) -> list[str]:
@@ -175,8 +215,8 @@ def _words(error, first):
     if found:
         text, row, column = found.groups()
         # NumPy counts rows from 0 and columns from 1.
-        return f"line {first + int(row)}, column {column}: {text!r} is no number"
-    return f"{error}"
+        return f"line {first + int(row)}, column {column}: {text[:60]!r} is no number"
+    return f"{error}"[:200]
 
 
 def significant_digits(lines: Sequence[str], delimiter: str | None = None) -> int:

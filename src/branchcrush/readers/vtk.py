@@ -59,29 +59,59 @@ def read_vtk(path: str | PathLike[str]) -> ColumnFrame:
             f"{path}: is no legacy VTK file in ASCII, as YADE's export.VTKExporter writes it"
         )
     points, cells, data, digits = np.empty((0, 3)), None, {}, 0
-    place = 0
+    place = rows = 0
     while place < len(lines):
-        words = lines[place].split()
+        words = lines[place].split() or [""]
         place += 1
-        if words[:1] == ["POINTS"]:
-            points, place = _block(lines, place, int(words[1]), 3, path)
+        if words[0] in ("POINTS", "LINES", "POINT_DATA", "CELL_DATA"):
+            rows = _count(words, place, path)
+        if words[0] == "POINTS":
+            points, place = _block(lines, place, rows, 3, path)
             digits = significant_digits(lines[place - len(points) : place])
-        elif words[:1] == ["LINES"]:
-            cells, place = _block(lines, place, int(words[1]), 3, path)
-        elif words[:1] in (["POINT_DATA"], ["CELL_DATA"]):
-            rows = int(words[1])
-        elif words[:1] and words[0] in _KINDS:
+        elif words[0] == "LINES":
+            cells, place = _block(lines, place, rows, 3, path)
+        elif words[0] in _KINDS:
+            if len(words) < 2:
+                raise ReadingError(f"{path}, line {place}: {words[0]} has no name")
             width = {"SCALARS": 1, "VECTORS": 3, "TENSORS": 9}[words[0]]
             if place < len(lines) and lines[place].startswith("LOOKUP_TABLE"):
                 place += 1
             values, place = _numbers(lines, place, rows, width, path)
             data[words[1]] = values[:, 0] if width == 1 else values
+    due = len(points) if cells is None else len(cells)
+    for name, values in data.items():
+        if len(values) != due:
+            raise ReadingError(
+                f"{path}: it has {len(values)} rows of {name[:60]}, where {due} are due; write it "
+                "again, whole"
+            )
     if cells is None:
         return ColumnFrame(str(path), dict(zip("xyz", points.T, strict=True)) | data, digits=digits)
-    ends = cells[:, 1:].astype(int)
+    ends = _ends(cells, len(points), path)
     return ColumnFrame(
         str(path), {"start": points[ends[:, 0]], "end": points[ends[:, 1]]} | data, digits=digits
     )
+
+
+def _count(words, line, path):
+    """Return how many rows a line tells."""
+    if len(words) < 2 or not words[1].isdecimal():
+        told = words[1][:40] if len(words) > 1 else "nothing"
+        raise ReadingError(
+            f"{path}, line {line}: {words[0]} has to tell how many rows follow, not {told!r}"
+        )
+    # More digits than that are no number of rows, and slow to read.
+    return int(words[1][:18])
+
+
+def _ends(cells, points, path):
+    """Return the two points of each line."""
+    ends = cells[:, 1:]
+    if np.any(cells[:, 0] != 2) or np.any((ends < 0) | (ends >= points) | (ends != np.floor(ends))):
+        raise ReadingError(
+            f"{path}: its lines do not each join two of its {points} points; write it again, whole"
+        )
+    return ends.astype(int)
 
 
 def _block(lines, place, rows, width, path):
@@ -101,7 +131,7 @@ def _numbers(lines, place, rows, width, path):
         except ValueError:
             break
         place += 1
-    if len(found) != rows * width:
+    if len(found) != rows * width or not np.isfinite(found).all():
         raise _broken(path, len(found) // width, rows)
     return np.reshape(found, (rows, width)), place
 

@@ -17,6 +17,7 @@ from branchcrush.gradings.mixtures import from_radii
 from branchcrush.gradings.narrower import narrower_words
 from branchcrush.gradings.representativity import realised_gap, representativity
 from branchcrush.gradings.size_fits import SizeFit
+from branchcrush.loading.memory import expected_memory
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
@@ -30,8 +31,6 @@ from branchcrush.study.preview_rods import Carrying, carrying
 _TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
 # Grains between which a strain has to travel: evaluations grow about so with their number.
 _GROWTH = 1.0 / 3.0
-# Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
-_BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
 # The columns of the sizes: smallest, D10 to D90, largest [%].
 PERCENTS = (0, 10, 30, 50, 60, 90, 100)
 _LARGEST_GRAINS = 10
@@ -168,7 +167,7 @@ def sample_plan(
         overlap=overlap,
         force_evaluations=evaluations,
         seconds=packings * evaluations * grains * seconds_per_grain,
-        memory=_BASE * sample.ranks + _CONTACT * _CONTACTS_PER_GRAIN * most * (states + 2),
+        memory=expected_memory(most, states, sample.ranks),
         fits=fits or {},
         carrying=carrying(sample),
         breaking=crushed,

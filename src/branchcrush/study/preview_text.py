@@ -4,6 +4,7 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 
+from branchcrush.loading.memory import memory_words
 from branchcrush.study.preview import PERCENTS, Plan
 from branchcrush.study.preview_breakage_words import grains_words, strength_words
 from branchcrush.study.preview_rods import carrying_words
@@ -21,7 +22,11 @@ _HEADS = ["min", *(f"D{percent}" for percent in PERCENTS[1:-1]), "max"]
 
 
 def preview_text(
-    plans: Mapping[str, Plan], cores: int, pictures: Mapping[str, str], notes: Mapping[str, str]
+    plans: Mapping[str, Plan],
+    cores: int,
+    pictures: Mapping[str, str],
+    notes: Mapping[str, str],
+    memory: tuple[float, float] | None = None,
 ) -> str:
     """Return the plans of all samples as text for a person.
 
@@ -35,6 +40,8 @@ def preview_text(
         The file with the picture of each sample.
     notes : dict of str
         Why the time of a sample is not known, where it is not.
+    memory : tuple of float, optional
+        What the machine has, and what is free of it, where that is known [bytes].
 
     Returns
     -------
@@ -56,7 +63,7 @@ def preview_text(
             *(line for text in _times(plan, cores, notes.get(name)) for line in _line(*text)),
             *_line("memory", f"about {plan.memory / 1e9:.1f} GB a job"),
             *_line("picture", pictures[name]),
-            *(line for text in _warnings(plan, cores) for line in _line("warning", text)),
+            *(line for text in _warnings(plan, cores, memory) for line in _line("warning", text)),
             "",
         ]
         longest = max(longest, on_cores(plan, plan.seconds + crushing, cores))
@@ -275,8 +282,13 @@ def _lasting(plan: Plan, seconds: float, cores: int, evaluations: float) -> str:
     )
 
 
-def _warnings(plan: Plan, cores: int) -> list[str]:
-    ranks = plan.sample.ranks
+def _warnings(plan: Plan, cores: int, memory: tuple[float, float] | None) -> list[str]:
+    ranks, warnings = plan.sample.ranks, list(plan.warnings)
     if ranks > cores:
-        return [*plan.warnings, f"ranks {ranks}, and {cores} core(s) -> {cores} are started"]
-    return plan.warnings
+        warnings.append(f"ranks {ranks}, and {cores} core(s) -> {cores} are started")
+    if memory is not None:
+        used = min(ranks, cores)
+        jobs = min(cores // used, len(plan.sample.seeds))
+        words = memory_words(plan.memory, jobs, used, *memory)
+        warnings += [f"{words} -> jobs may be killed for want of memory"] if words else []
+    return warnings

@@ -248,3 +248,20 @@ assert "pandas" not in sys.modules
 """
     subprocess.run([sys.executable, "-c", program], cwd=folder, check=True)
     assert len(pd.read_parquet(folder / "contacts.parquet")) == 1
+
+
+@pytest.mark.parametrize("name", ["states.csv", "steps.csv", *DUMPS])
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.75, 0.97])
+def test_a_file_that_breaks_off_is_refused_in_one_line(folder, name, share):
+    whole = (folder / name).read_bytes()
+    (folder / name).write_bytes(whole[: int(share * len(whole))])
+    with pytest.raises(SimulationError, match="is the disk full") as caught:
+        read_compression(folder, VARIABLES, "")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_run_that_saved_no_state_says_why(folder):
+    head, *_ = (folder / "states.csv").read_text().splitlines()
+    (folder / "states.csv").write_text(head + "\n")
+    with pytest.raises(SimulationError, match="two grains at one place"):
+        read_compression(folder, VARIABLES, "two grains at one place")

@@ -145,3 +145,15 @@ def test_rank_whose_job_died_before_it_began_runs_nothing(tmp_path):
     assert not (tmp_path / "result.json").exists()
     subprocess.run([*map(str, command), str(os.getpid()), start_of(os.getpid())], check=True)
     assert (tmp_path / "result.json").exists()
+
+
+@pytest.mark.parametrize("place", ["full", "folder"])
+def test_a_log_that_cannot_be_written_hides_no_message_of_lammps(tmp_path, place):
+    script, log = tmp_path / "in.example", tmp_path / "log"
+    script.write_text(WRONG)
+    log.symlink_to("/dev/full") if place == "full" else log.mkdir()
+    with pytest.raises(SimulationError) as refused:
+        run_script(script, {}, log)
+    message = str(refused.value)
+    assert message.startswith("LAMMPS stopped: ") and "\n" not in message
+    assert ("nowhere" if place == "full" else str(log)) in message

@@ -1,0 +1,96 @@
+"""How much memory jobs are expected to take, and what to say where there is less."""
+
+# Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
+_BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
+# What is expected may be half as much again.
+_CLEARLY = 1.5
+
+
+def expected_memory(grains: float, states: int, ranks: int = 1) -> float:
+    """Return about how much memory a job takes that compresses a packing.
+
+    Parameters
+    ----------
+    grains : float
+        N at the end of the loading.
+    states : int
+        Saved on the way; the loose packing and the end of the approach come besides.
+    ranks : int
+        MPI processes that share the packing.
+
+    Returns
+    -------
+    float
+        Of all ranks together [bytes].
+
+    Examples
+    --------
+    >>> expected_memory(1e6, 15) / 1e9
+    15.65
+    """
+    return _BASE * ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2)
+
+
+def is_too_much(need: float, total: float) -> bool:
+    """Return whether a job needs clearly more memory than a machine has.
+
+    Parameters
+    ----------
+    need : float
+        From `expected_memory` [bytes].
+    total : float
+        Of the machine [bytes].
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> is_too_much(9e9, 8e9), is_too_much(13e9, 8e9)
+    (False, True)
+    """
+    return need > _CLEARLY * total
+
+
+def memory_words(need: float, jobs: int, ranks: int, total: float, available: float) -> str:
+    """Return what to say of jobs that take more memory than is free, or nothing.
+
+    Parameters
+    ----------
+    need : float
+        Of one job [bytes].
+    jobs : int
+        That run at a time.
+    ranks : int
+        Cores of each.
+    total, available : float
+        What the machine has, and what is free of it [bytes].
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> memory_words(3e9, 2, 1, 8e9, 5e9)
+    '2 jobs at a time take about 6.0 GB of memory, and 5.0 GB are free: take --cores 1'
+    >>> memory_words(2e9, 2, 1, 8e9, 5e9)
+    ''
+    """
+    if need * jobs <= available:
+        return ""
+    fewer = int(available // need)
+    advice = "ask for fewer grains or loading.states"
+    if is_too_much(need, total):
+        return (
+            f"a job takes about {need / 1e9:.1f} GB of memory, and the machine has "
+            f"{total / 1e9:.1f} GB: {advice}, or take a larger machine"
+        )
+    if 0 < fewer < jobs:
+        advice = f"take --cores {fewer * ranks}"
+    takes = f"{jobs} jobs at a time take" if jobs > 1 else "a job takes"
+    return (
+        f"{takes} about {need * jobs / 1e9:.1f} GB of memory, and {available / 1e9:.1f} GB are "
+        f"free: {advice}"
+    )
