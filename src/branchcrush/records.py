@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from branchcrush import __version__
+from branchcrush.claims import claimed
 from branchcrush.files.digests import Digests, digests_of
 from branchcrush.files.replacing import replacing
 from branchcrush.jobs import job
@@ -24,6 +25,9 @@ KEPT_DUMPS = ("none", "last", "all")
 def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
 
+    Whoever else makes the same results, from another run or by a job that was begun twice, is
+    waited for.
+
     Parameters
     ----------
     snakemake : object
@@ -34,7 +38,7 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     list of str
         For paths of files that the job writes besides its outputs, and that may be deleted.
     """
-    with job(snakemake.log[0]):
+    with job(snakemake.log[0]), claimed(snakemake.output.record):
         beside: list[str] = []
         digests = Digests(snakemake.rule)
         # Before the job reads them: one that is edited meanwhile is another one the next time.

@@ -3,7 +3,7 @@
 from functools import partial
 
 from branchcrush.errors import RunError
-from branchcrush.runs import one_run
+from branchcrush.runs import join_run, one_run
 
 
 def alone(execute):
@@ -20,7 +20,7 @@ def alone(execute):
         if executor_plugin.common_settings.dryrun_exec or only_preview:
             return execution()
         try:
-            with one_run():
+            with one_run(cluster=executor_plugin.common_settings.non_local_exec):
                 return execution()
         except RunError as error:
             raise WorkflowError(str(error)) from None
@@ -33,3 +33,6 @@ def alone(execute):
 if workflow.is_main_process and not hasattr(workflow, "alone"):
     workflow.alone = True
     workflow.execute = alone(workflow.execute)
+elif not workflow.is_main_process:
+    # Snakemake itself in a job of a cluster: before it removes results, which may be another run's.
+    join_run()

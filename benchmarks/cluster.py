@@ -1,0 +1,207 @@
+"""What a study on a cluster takes beside its packings, and what a large one would take.
+
+Slurm runs on this machine (`benchmarks.slurm`): hundreds of tiny packings, many in a job, some of
+them one in a job, and some without a cluster. One packing of the size of the large study is
+compressed without a cluster. Needs root, and Debian's packages slurm-wlm and munge.
+"""
+
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from benchmarks.slurm import Cluster
+
+ROOT = Path(__file__).resolve().parents[1]
+TINY = """\
+samples:
+  tiny:
+    grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-4, max: 1.0e-3}}
+    grains: 30
+    allow_unrepresentative: true
+    loading: {{edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 4, quality: draft}}
+    seeds: {seeds}
+    refined_seeds: 0
+keep_dumps: none
+"""
+LARGE = """\
+samples:
+  large:
+    grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-5, max: 1.0e-3}}
+    grains: {grains}
+    boundary: periodic
+    loading: {{edge_reduction: 0.4, quality: standard}}
+    seeds: 1
+    refined_seeds: 0
+keep_dumps: none
+"""
+_INSIDE = re.compile(r"^branchcrush: ([\d.]+) s inside LAMMPS$", re.MULTILINE)
+_REQUEST = re.compile(r"^\s+(REQUEST_\w+)\s+\(.*count:(\d+)", re.MULTILINE)
+# Seconds between looks at the queue, as in the profile; for jobs of seconds.
+_LOOK = 5
+
+
+def run(packings=300, group=50, single=30, grains=10_000, study=1000):
+    """Return what each way takes, and what a large study would.
+
+    Parameters
+    ----------
+    packings, group : int
+        Tiny packings, and how many of them share a job.
+    single : int
+        That have a job each, and that are made without a cluster.
+    grains, study : int
+        Of a packing of the large study, and how many packings it has.
+
+    Returns
+    -------
+    dict
+    """
+    with tempfile.TemporaryDirectory(prefix="cluster-") as folder:
+        folder = Path(folder)
+        alone = _study(folder / "alone", TINY.format(seeds=single), ["--cores", "2"])
+        large = _study(folder / "large", LARGE.format(grains=grains), ["--cores", "1"])
+        (folder / "slurm").mkdir()
+        cluster = Cluster(folder / "slurm")
+        cluster.start()
+        try:
+            singly = _study(folder / "single", TINY.format(seeds=single), _on_cluster(1), cluster)
+            grouped = _study(
+                folder / "grouped", TINY.format(seeds=packings), _on_cluster(group), cluster
+            )
+        finally:
+            cluster.stop()
+    overhead = {
+        "alone": _beside_lammps(alone),
+        "single": _beside_lammps(singly),
+        "grouped": _beside_lammps(grouped),
+    }
+    return {
+        "alone": alone,
+        "single": singly,
+        "grouped": grouped,
+        "processor_seconds_of_a_packing_beside_lammps": overhead,
+        "large": large,
+        "study": expected(
+            packings=study,
+            seconds=large["lammps_seconds"] + overhead["grouped"],
+            megabytes=large["megabytes"],
+            files=grouped["files"] / packings,
+            requests=singly["requests_of_a_job"],
+        ),
+    }
+
+
+def expected(packings, seconds, megabytes, files, requests, nodes=4, cores=32, minutes=20):
+    """Return what a study takes of a cluster, from what one packing takes.
+
+    Parameters
+    ----------
+    packings : int
+    seconds, megabytes, files : float
+        Of a core, of the disk, and how many files, for each packing.
+    requests : float
+        That a job makes of the controller.
+    nodes, cores : int
+        At hand, and those of a node.
+    minutes : float
+        That a job is to take at least.
+
+    Returns
+    -------
+    dict
+        `group`, packings of a job; `jobs`; `core_hours`; `hours`, on all nodes; `gigabytes`;
+        `files`; `requests`, of the controller, and `requests_a_minute`.
+
+    Examples
+    --------
+    >>> expected(1000, 300.0, 40.0, 20.0, 10.0, nodes=2, cores=10)["group"]
+    4
+    """
+    group = math.ceil(60.0 * minutes / seconds)
+    jobs = math.ceil(packings / group)
+    # As many at a time as there are cores, each as long as all its packings.
+    hours = math.ceil(jobs / (nodes * cores)) * group * seconds / 3600.0
+    looks = 3600.0 * hours / 180.0  # at the queue, at most so far apart
+    return {
+        "group": group,
+        "jobs": jobs,
+        "core_hours": packings * seconds / 3600.0,
+        "hours": hours,
+        "gigabytes": packings * megabytes / 1000.0,
+        "files": round(packings * files),
+        "requests": round(jobs * requests + looks),
+        "requests_a_minute": (jobs * requests + looks) / (60.0 * hours),
+    }
+
+
+def _on_cluster(group):
+    """Return the arguments of a study on the cluster."""
+    return [
+        *("--workflow-profile", "slurm", "--jobs", "2", "--slurm-status-command", "squeue"),
+        *("--slurm-init-seconds-before-status-checks", str(_LOOK), "--latency-wait", "5"),
+        *(["--groups", "compression=packings"] if group > 1 else []),
+        *(["--group-components", f"packings={group}", "--cores", "1"] if group > 1 else []),
+    ]
+
+
+def _study(folder, config, arguments, cluster=None):
+    """Run a study up to its certificates, and return what it took."""
+    folder.mkdir()
+    (folder / "config.yaml").write_text(config, encoding="utf-8")
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    environment["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment["PYTHONPATH"] = os.pathsep.join(
+        [str(ROOT / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
+    )
+    name = re.search(r"^  (\w+):$", config, re.MULTILINE)[1]
+    before = {}
+    if cluster is not None:
+        environment |= cluster.environment
+        before = _requests(cluster)
+    command = [sys.executable, "-m", "snakemake", *arguments]
+    command += ["--snakefile", str(ROOT / "Snakefile"), f"results/{name}/jamming.csv"]
+    start, used = time.perf_counter(), _processor_seconds()
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    wall, used = time.perf_counter() - start, _processor_seconds() - used
+    if done.returncode:
+        raise RuntimeError(done.stdout + done.stderr)
+    logs = sorted(folder.glob("logs/*/seed_*/compression.log"))
+    inside = [float(_INSIDE.findall(log.read_text(encoding="utf-8"))[-1]) for log in logs]
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    told = {
+        "packings": len(inside),
+        "wall_seconds": wall,
+        "processor_seconds": used,
+        "lammps_seconds": sum(inside),
+        "files": len(files),
+        "inodes": len(list(folder.rglob("*"))),
+        "megabytes": sum(path.stat().st_size for path in files) / 1e6,
+    }
+    if cluster is not None:
+        table = cluster.said("squeue", "-h", "--states", "all", "-o", "%Z|%A")
+        jobs = sum(line.startswith(f"{folder}|") for line in table.splitlines())
+        after = _requests(cluster)
+        asked = {kind: after[kind] - before.get(kind, 0) for kind in after}
+        told |= {"jobs": jobs, "requests": {kind: n for kind, n in asked.items() if n}}
+        told["requests_of_a_job"] = sum(asked.values()) / jobs
+    return told
+
+
+def _requests(cluster):
+    """Return how many requests of each kind the controller has answered."""
+    return {kind: int(count) for kind, count in _REQUEST.findall(cluster.said("sdiag"))}
+
+
+def _processor_seconds():
+    """Return what all of this machine has used of its processors; nothing else should run on it."""
+    user, nice, system, *_ = map(int, Path("/proc/stat").read_text().split("\n")[0].split()[1:])
+    return (user + nice + system) / os.sysconf("SC_CLK_TCK")
+
+
+def _beside_lammps(told):
+    return (told["processor_seconds"] - told["lammps_seconds"]) / told["packings"]

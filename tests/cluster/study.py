@@ -1,0 +1,144 @@
+"""A study that is run on the cluster, and what is seen of it from outside."""
+
+import contextlib
+import fcntl
+import os
+import signal
+import subprocess
+import threading
+import time
+from collections import Counter
+
+from benchmarks.kills import Study
+
+# Packings of some seconds, so that something can happen to them; one is on two ranks.
+SAMPLE = """\
+  {name}:
+    grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-4, max: 1.0e-3}}
+    grains: 300
+    allow_unrepresentative: true
+    loading: {{edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 8, quality: standard}}
+    seeds: {seeds}
+    refined_seeds: 0
+    ranks: {ranks}
+"""
+CONFIG = "".join(
+    [
+        "samples:\n",
+        SAMPLE.format(name="lone", seeds=3, ranks=1),
+        SAMPLE.format(name="paired", seeds=1, ranks=2),
+        "figures: {dpi: 60}\n",
+    ]
+)
+# Of the certificates; what follows from them is tested without a cluster.
+TARGETS = ("results/lone/jamming.csv", "results/paired/jamming.csv")
+
+
+def one_machine(folder):
+    """Return the digest of each result, made without a cluster."""
+    study = Study(folder, TARGETS)
+    (study.folder / "config.yaml").write_text(CONFIG, encoding="utf-8")
+    assert study.finish() == 0, study.output()
+    return study.results()
+
+
+class ClusterStudy(Study):
+    """A folder in which a user types the command for the cluster."""
+
+    def __init__(self, folder, cluster, targets=TARGETS):
+        super().__init__(folder, targets)
+        (self.folder / "config.yaml").write_text(CONFIG, encoding="utf-8")
+        self.cluster = cluster
+        at = self.command.index("--cores")
+        self.command[at : at + 2] = [
+            *("--workflow-profile", "slurm", "--jobs", "2"),
+            # No accounting here; and jobs of seconds are asked for more often than such of minutes.
+            *("--slurm-status-command", "squeue"),
+            *("--slurm-init-seconds-before-status-checks", "2"),
+            *("--latency-wait", "5"),
+        ]
+        self.environment |= cluster.environment
+        self.most_at_once = {}
+
+    def output(self):
+        """Return all that was said so far."""
+        return (self.folder / "output.txt").read_text(encoding="utf-8")
+
+    def end_all(self):
+        """End the jobs that may be left after a test that failed."""
+        self.cluster.said("scancel", "--user", "root")
+        for process in self.processes():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
+
+    @contextlib.contextmanager
+    def begun(self):
+        """Begin the command in a process of its own, which the test may kill, alone."""
+        with open(self.folder / "output.txt", "a", encoding="utf-8") as output:
+            main = subprocess.Popen(
+                self.command,
+                cwd=self.folder,
+                env=self.environment,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        try:
+            yield main
+        finally:
+            main.kill()
+            main.wait()
+
+    def asked(self):
+        """Return the cores, memory and time that each job asked for, by its rule and wildcards."""
+        table = self.cluster.said("squeue", "-h", "--states", "all", "-o", "%Z|%k|%C|%m|%l")
+        rows = (line.split("|") for line in table.splitlines())
+        return {comment: tuple(rest) for place, comment, *rest in rows if place == str(self.folder)}
+
+    def at_work(self):
+        """Return the packings that are compressed just now, as sample/seed_1."""
+        folders = self.folder.glob("results/*/seed_*/.compress-*")
+        return sorted(
+            str(path.parent.relative_to(self.folder / "results")) for path in folders if _held(path)
+        )
+
+    def wait_for(self, happens, what, seconds=90.0):
+        """Wait until something is true, and return it."""
+        end = time.monotonic() + seconds
+        while not (found := happens()):
+            assert time.monotonic() < end, f"{what} does not happen: {self.output()}"
+            time.sleep(0.02)
+        return found
+
+    @contextlib.contextmanager
+    def watched(self):
+        """Look meanwhile how many processes at a time compress each packing."""
+        ended = threading.Event()
+
+        def look():
+            while not ended.wait(0.02):
+                for name, number in Counter(self.at_work()).items():
+                    self.most_at_once[name] = max(number, self.most_at_once.get(name, 0))
+
+        watch = threading.Thread(target=look)
+        watch.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            watch.join()
+
+
+def _held(folder):
+    """Return whether the process that made a scratch folder lives: it holds a lock on it."""
+    try:
+        file = os.open(folder, os.O_RDONLY)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(file)
+    return False
