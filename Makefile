@@ -171,7 +171,7 @@ $(VENV)/.develop: $(VENV)/.packages requirements-dev.lock | $(READY)
 	@touch $@
 
 # Of its own: Snakemake imports a plugin of it at each start, on whatever machine.
-slurm: $(VENV)/.slurm ## add to the environment what a cluster with Slurm needs: docs/running.md
+slurm: $(VENV)/.slurm ## add to the environment what a cluster with Slurm needs: docs/cluster.md
 
 $(VENV)/.slurm: $(VENV)/.packages requirements-slurm.lock | $(READY)
 	@echo "Adding to $(VENV) what Slurm needs"

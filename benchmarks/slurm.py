@@ -60,18 +60,18 @@ class Cluster:
         if os.geteuid() != 0:
             raise RuntimeError("a node with process numbers of its own needs root")
         self.folder = Path(folder)
-        self.environment = {**os.environ, "PATH": _PATH, "SLURM_CONF": f"{folder}/slurm.conf"}
+        self.environment = {**os.environ, "PATH": _PATH, "SLURM_CONF": f"{folder}/etc/slurm.conf"}
         self._daemons = []
 
     def start(self):
         """Begin all three, and wait until the node takes jobs."""
         folder = self.folder
-        for name in ("state", "spool"):
+        for name in ("etc", "state", "spool"):
             (folder / name).mkdir()
         (folder / "munge.key").write_bytes(secrets.token_bytes(128))
         (folder / "munge.key").chmod(0o600)
         controller_port, node_port = _free_ports(2)
-        (folder / "slurm.conf").write_text(
+        (folder / "etc" / "slurm.conf").write_text(
             SETTINGS.format(
                 host=socket.gethostname().split(".")[0],
                 controller_port=controller_port,
@@ -86,8 +86,11 @@ class Cluster:
         self._begin("munged", "--foreground", "--force", f"--socket={folder}/munge.socket", *files)
         self._wait_for(lambda: (folder / "munge.socket").exists(), "munged")
         self._begin("slurmctld", "-D")
-        own = ("--pid", "--uts", "--fork", "--kill-child", "--mount-proc")
-        self._begin("unshare", *own, "sh", "-c", f"hostname {NODE} && exec slurmd -D -N {NODE}")
+        own = ("--pid", "--uts", "--mount", "--fork", "--kill-child", "--mount-proc")
+        # Snakemake's executor takes SLURM_CONF from what it starts there.
+        shown = f"mount --bind {folder}/etc /etc/slurm"
+        node = f"hostname {NODE} && {shown} && exec slurmd -D -N {NODE}"
+        self._begin("unshare", *own, "sh", "-c", node)
         self._wait_for(lambda: self.said("sinfo", "-h", "-o", "%t") == "idle", "the node")
 
     def stop(self):

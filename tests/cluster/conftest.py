@@ -24,6 +24,12 @@ def expected(tmp_path_factory):
     return one_machine(tmp_path_factory.mktemp("alone") / "study")
 
 
+@pytest.fixture(scope="session")
+def expected_packings(expected):
+    """The same of the packings alone."""
+    return {name: digest for name, digest in expected.items() if "/seed_" in name}
+
+
 @pytest.fixture
 def study(cluster, tmp_path):
     """The study in a folder of its own, to be run on the cluster."""

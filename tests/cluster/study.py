@@ -2,22 +2,26 @@
 
 import contextlib
 import fcntl
+import json
 import os
+import re
 import signal
 import subprocess
 import threading
 import time
 from collections import Counter
+from pathlib import Path
+from typing import NamedTuple
 
 from benchmarks.kills import Study
 
-# Packings of some seconds, so that something can happen to them; one is on two ranks.
+# Packings of a second, which tests stop while something happens; one is on two ranks.
 SAMPLE = """\
   {name}:
     grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-4, max: 1.0e-3}}
-    grains: 300
+    grains: 50
     allow_unrepresentative: true
-    loading: {{edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 8, quality: standard}}
+    loading: {{edge_reduction: 0.4, approach_solid_fraction: 0.45, states: 3, quality: draft}}
     seeds: {seeds}
     refined_seeds: 0
     ranks: {ranks}
@@ -25,27 +29,40 @@ SAMPLE = """\
 CONFIG = "".join(
     [
         "samples:\n",
-        SAMPLE.format(name="lone", seeds=3, ranks=1),
+        SAMPLE.format(name="lone", seeds=2, ranks=1),
         SAMPLE.format(name="paired", seeds=1, ranks=2),
         "figures: {dpi: 60}\n",
     ]
 )
-# Of the certificates; what follows from them is tested without a cluster.
-TARGETS = ("results/lone/jamming.csv", "results/paired/jamming.csv")
+CERTIFICATES = ("results/lone/jamming.csv", "results/paired/jamming.csv")
+PACKINGS = tuple(
+    f"results/{name}/path.csv" for name in ("lone/seed_1", "lone/seed_2", "paired/seed_1")
+)
+
+
+_ASKED = ("-o", "%Z|%k|%C|%m|%l")
+
+
+class Asked(NamedTuple):
+    """What a job asked the cluster for."""
+
+    cores: int
+    megabytes: int
+    minutes: int
 
 
 def one_machine(folder):
     """Return the digest of each result, made without a cluster."""
-    study = Study(folder, TARGETS)
+    study = Study(folder, CERTIFICATES)
     (study.folder / "config.yaml").write_text(CONFIG, encoding="utf-8")
-    assert study.finish() == 0, study.output()
+    assert study.finish() == 0, (study.folder / "output.txt").read_text(encoding="utf-8")
     return study.results()
 
 
 class ClusterStudy(Study):
     """A folder in which a user types the command for the cluster."""
 
-    def __init__(self, folder, cluster, targets=TARGETS):
+    def __init__(self, folder, cluster, targets=PACKINGS):
         super().__init__(folder, targets)
         (self.folder / "config.yaml").write_text(CONFIG, encoding="utf-8")
         self.cluster = cluster
@@ -90,10 +107,16 @@ class ClusterStudy(Study):
             main.wait()
 
     def asked(self):
-        """Return the cores, memory and time that each job asked for, by its rule and wildcards."""
-        table = self.cluster.said("squeue", "-h", "--states", "all", "-o", "%Z|%k|%C|%m|%l")
-        rows = (line.split("|") for line in table.splitlines())
-        return {comment: tuple(rest) for place, comment, *rest in rows if place == str(self.folder)}
+        """Return what jobs asked for, in turn, by rule and wildcards."""
+        table = self.cluster.said("squeue", "-h", "--states", "all", "--sort", "i", *_ASKED)
+        jobs = {}
+        for line in table.splitlines():
+            place, comment, cores, memory, time_limit = line.split("|")
+            if place == str(self.folder):
+                megabytes = int(memory.removesuffix("M"))
+                minutes = int(time_limit.partition(":")[0])
+                jobs.setdefault(comment, []).append(Asked(int(cores), megabytes, minutes))
+        return jobs
 
     def at_work(self):
         """Return the packings that are compressed just now, as sample/seed_1."""
@@ -101,6 +124,36 @@ class ClusterStudy(Study):
         return sorted(
             str(path.parent.relative_to(self.folder / "results")) for path in folders if _held(path)
         )
+
+    def frozen(self, number):
+        """Wait until so many packings are at work, and stop the process of each as it is seen.
+
+        Returns their processes by their names, as `at_work`.
+        """
+        stopped = {}
+
+        def all_seen():
+            for name in self.at_work():
+                if name not in stopped and (process := self._process_of(name)):
+                    os.kill(process, signal.SIGSTOP)
+                    stopped[name] = process
+            return len(stopped) >= number
+
+        self.wait_for(all_seen, f"{number} packings at work")
+        return stopped
+
+    def _process_of(self, name):
+        """Return the process that claims a packing, by its number on this side of the node."""
+        claim = (
+            self.folder / ".branchcrush" / "claims" / f"results/{name}/made.json".replace("/", "+")
+        )
+        with contextlib.suppress(OSError, ValueError):
+            number = json.loads(claim.read_text(encoding="utf-8"))["process"]
+            for process in self.jobs():
+                status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+                if re.search(rf"^NSpid:.*\s{number}$", status, re.MULTILINE):
+                    return process
+        return None
 
     def wait_for(self, happens, what, seconds=90.0):
         """Wait until something is true, and return it."""
