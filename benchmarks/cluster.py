@@ -1,8 +1,8 @@
 """What a study on a cluster takes beside its packings, and what a large one would take.
 
 Slurm runs on this machine (`benchmarks.slurm`): hundreds of tiny packings, many in a job, some of
-them one in a job, and some without a cluster. One packing of the size of the large study is
-compressed without a cluster. Needs root, and Debian's packages slurm-wlm and munge.
+them one in a job, and some without a cluster. A packing of 1000 grains, made without a cluster,
+tells what larger ones take. Needs root, and Debian's packages slurm-wlm and munge.
 """
 
 import math
@@ -28,24 +28,26 @@ samples:
     refined_seeds: 0
 keep_dumps: none
 """
-LARGE = """\
+# The paper's grading and loading, as in config.yaml.
+THOUSAND = """\
 samples:
-  large:
-    grading: {{form: uniform, basis: number, size: radius, unit: m, min: 5.0e-5, max: 1.0e-3}}
-    grains: {grains}
-    boundary: periodic
-    loading: {{edge_reduction: 0.4, quality: standard}}
-    seeds: 1
+  thousand:
+    grading: {form: uniform, basis: number, size: radius, unit: m, min: 5.0e-6, max: 1.0e-3}
+    grains: 1000
+    loading: {edge_reduction: 0.4, quality: standard}
+    seeds: 2
     refined_seeds: 0
 keep_dumps: none
 """
+# Evaluations grow as the cube root of the grains (study/cost.py), and what each takes as they do.
+_GROWTH = 4.0 / 3.0
 _INSIDE = re.compile(r"^branchcrush: ([\d.]+) s inside LAMMPS$", re.MULTILINE)
 _REQUEST = re.compile(r"^\s+(REQUEST_\w+)\s+\(.*count:(\d+)", re.MULTILINE)
 # Seconds between looks at the queue, as in the profile; for jobs of seconds.
 _LOOK = 5
 
 
-def run(packings=300, group=50, single=30, grains=10_000, study=1000):
+def run(packings=300, group=50, single=30, study=1000, times=10):
     """Return what each way takes, and what a large study would.
 
     Parameters
@@ -54,8 +56,8 @@ def run(packings=300, group=50, single=30, grains=10_000, study=1000):
         Tiny packings, and how many of them share a job.
     single : int
         That have a job each, and that are made without a cluster.
-    grains, study : int
-        Of a packing of the large study, and how many packings it has.
+    study, times : int
+        Packings of the large study, and how many times 1000 grains each has.
 
     Returns
     -------
@@ -64,7 +66,7 @@ def run(packings=300, group=50, single=30, grains=10_000, study=1000):
     with tempfile.TemporaryDirectory(prefix="cluster-") as folder:
         folder = Path(folder)
         alone = _study(folder / "alone", TINY.format(seeds=single), ["--cores", "2"])
-        large = _study(folder / "large", LARGE.format(grains=grains), ["--cores", "1"])
+        thousand = _study(folder / "thousand", THOUSAND, ["--cores", "1"])
         (folder / "slurm").mkdir()
         cluster = Cluster(folder / "slurm")
         cluster.start()
@@ -85,11 +87,11 @@ def run(packings=300, group=50, single=30, grains=10_000, study=1000):
         "single": singly,
         "grouped": grouped,
         "processor_seconds_of_a_packing_beside_lammps": overhead,
-        "large": large,
+        "thousand": thousand,
         "study": expected(
             packings=study,
-            seconds=large["lammps_seconds"] + overhead["grouped"],
-            megabytes=large["megabytes"],
+            seconds=thousand["lammps_seconds"] / 2.0 * times**_GROWTH + overhead["grouped"],
+            megabytes=thousand["megabytes"] / 2.0 * times,
             files=grouped["files"] / packings,
             requests=singly["requests_of_a_job"],
         ),

@@ -155,7 +155,7 @@ class ClusterStudy(Study):
                     return process
         return None
 
-    def wait_for(self, happens, what, seconds=90.0):
+    def wait_for(self, happens, what, seconds=600.0):
         """Wait until something is true, and return it."""
         end = time.monotonic() + seconds
         while not (found := happens()):
