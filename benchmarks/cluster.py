@@ -5,6 +5,7 @@ them one in a job, and some without a cluster. A packing of 1000 grains, made wi
 tells what larger ones take. Needs root, and Debian's packages slurm-wlm and munge.
 """
 
+import contextlib
 import math
 import os
 import re
@@ -41,13 +42,12 @@ keep_dumps: none
 """
 # Evaluations grow as the cube root of the grains (study/cost.py), and what each takes as they do.
 _GROWTH = 4.0 / 3.0
-_INSIDE = re.compile(r"^branchcrush: ([\d.]+) s inside LAMMPS$", re.MULTILINE)
 _REQUEST = re.compile(r"^\s+(REQUEST_\w+)\s+\(.*count:(\d+)", re.MULTILINE)
 # Seconds between looks at the queue, as in the profile; for jobs of seconds.
 _LOOK = 5
 
 
-def run(packings=300, group=50, single=30, study=1000, times=10):
+def run(packings=300, group=50, single=10, study=1000, times=10):
     """Return what each way takes, and what a large study would.
 
     Parameters
@@ -62,36 +62,37 @@ def run(packings=300, group=50, single=30, study=1000, times=10):
     Returns
     -------
     dict
+        Of each way `wall_seconds`, `processor_seconds`, `files` and `inodes` left, `megabytes`, and
+        on the cluster `jobs` and `requests` of its controller; `job_seconds`, what a job costs a
+        processor beside what it is for, and `grouped_seconds`, its share where packings share a
+        job; `study`, from `expected`.
     """
-    with tempfile.TemporaryDirectory(prefix="cluster-") as folder:
+    with tempfile.TemporaryDirectory(prefix="cluster-") as folder, _accounted() as used:
         folder = Path(folder)
-        alone = _study(folder / "alone", TINY.format(seeds=single), ["--cores", "2"])
-        thousand = _study(folder / "thousand", THOUSAND, ["--cores", "1"])
+        alone = _study(folder / "alone", TINY.format(seeds=single), ["--cores", "2"], used)
+        thousand = _study(folder / "thousand", THOUSAND, ["--cores", "1"], used)
         (folder / "slurm").mkdir()
         cluster = Cluster(folder / "slurm")
         cluster.start()
         try:
-            singly = _study(folder / "single", TINY.format(seeds=single), _on_cluster(1), cluster)
-            grouped = _study(
-                folder / "grouped", TINY.format(seeds=packings), _on_cluster(group), cluster
-            )
+            tiny = TINY.format(seeds=single)
+            singly = _study(folder / "single", tiny, _on_cluster(1), used, cluster)
+            tiny = TINY.format(seeds=packings)
+            grouped = _study(folder / "grouped", tiny, _on_cluster(group), used, cluster)
         finally:
             cluster.stop()
-    overhead = {
-        "alone": _beside_lammps(alone),
-        "single": _beside_lammps(singly),
-        "grouped": _beside_lammps(grouped),
-    }
+    of_one, of_job, of_grouped = (_of_packing(told) for told in (alone, singly, grouped))
     return {
         "alone": alone,
+        "thousand": thousand,
         "single": singly,
         "grouped": grouped,
-        "processor_seconds_of_a_packing_beside_lammps": overhead,
-        "thousand": thousand,
+        "job_seconds": of_job - of_one,
+        "grouped_seconds": of_grouped - of_one,
         "study": expected(
             packings=study,
-            seconds=thousand["lammps_seconds"] / 2.0 * times**_GROWTH + overhead["grouped"],
-            megabytes=thousand["megabytes"] / 2.0 * times,
+            seconds=_of_packing(thousand) * times**_GROWTH,
+            megabytes=thousand["megabytes"] / thousand["packings"] * times,
             files=grouped["files"] / packings,
             requests=singly["requests_of_a_job"],
         ),
@@ -151,7 +152,7 @@ def _on_cluster(group):
     ]
 
 
-def _study(folder, config, arguments, cluster=None):
+def _study(folder, config, arguments, used, cluster=None):
     """Run a study up to its certificates, and return what it took."""
     folder.mkdir()
     (folder / "config.yaml").write_text(config, encoding="utf-8")
@@ -167,19 +168,16 @@ def _study(folder, config, arguments, cluster=None):
         before = _requests(cluster)
     command = [sys.executable, "-m", "snakemake", *arguments]
     command += ["--snakefile", str(ROOT / "Snakefile"), f"results/{name}/jamming.csv"]
-    start, used = time.perf_counter(), _processor_seconds()
+    start, before_it = time.perf_counter(), used()
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-    wall, used = time.perf_counter() - start, _processor_seconds() - used
+    wall, processor = time.perf_counter() - start, used() - before_it
     if done.returncode:
         raise RuntimeError(done.stdout + done.stderr)
-    logs = sorted(folder.glob("logs/*/seed_*/compression.log"))
-    inside = [float(_INSIDE.findall(log.read_text(encoding="utf-8"))[-1]) for log in logs]
     files = [path for path in folder.rglob("*") if path.is_file()]
     told = {
-        "packings": len(inside),
+        "packings": len(list(folder.glob("results/*/seed_*/made.json"))),
         "wall_seconds": wall,
-        "processor_seconds": used,
-        "lammps_seconds": sum(inside),
+        "processor_seconds": processor,
         "files": len(files),
         "inodes": len(list(folder.rglob("*"))),
         "megabytes": sum(path.stat().st_size for path in files) / 1e6,
@@ -199,11 +197,29 @@ def _requests(cluster):
     return {kind: int(count) for kind, count in _REQUEST.findall(cluster.said("sdiag"))}
 
 
-def _processor_seconds():
-    """Return what all of this machine has used of its processors; nothing else should run on it."""
-    user, nice, system, *_ = map(int, Path("/proc/stat").read_text().split("\n")[0].split()[1:])
-    return (user + nice + system) / os.sysconf("SC_CLK_TCK")
+@contextlib.contextmanager
+def _accounted():
+    """Yield what tells the processor's time of all that is started meanwhile, daemons too [s]."""
+    first, second = Path("/sys/fs/cgroup/cpuacct"), Path("/sys/fs/cgroup")  # versions of the kernel
+    root = first if first.is_dir() else second
+    group = root / f"branchcrush-{os.getpid()}"
+    group.mkdir()
+    (group / "cgroup.procs").write_text("0")
+
+    def seconds():
+        if root == first:
+            return int((group / "cpuacct.usage").read_text()) / 1e9
+        return int(re.search(r"usage_usec (\d+)", (group / "cpu.stat").read_text())[1]) / 1e6
+
+    try:
+        yield seconds
+    finally:
+        (root / "cgroup.procs").write_text("0")
+        # Daemons may end later; an empty group is nothing.
+        with contextlib.suppress(OSError):
+            group.rmdir()
 
 
-def _beside_lammps(told):
-    return (told["processor_seconds"] - told["lammps_seconds"]) / told["packings"]
+def _of_packing(told):
+    """Return what a packing took of a processor, with its share of all else [s]."""
+    return told["processor_seconds"] / told["packings"]

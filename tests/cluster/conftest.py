@@ -27,7 +27,7 @@ def expected(tmp_path_factory):
 @pytest.fixture(scope="session")
 def expected_packings(expected):
     """The same of the packings alone."""
-    return {name: digest for name, digest in expected.items() if "/seed_" in name}
+    return {name: digest for name, digest in expected.items() if "/lone/seed_" in name}
 
 
 @pytest.fixture

@@ -29,17 +29,14 @@ SAMPLE = """\
 CONFIG = "".join(
     [
         "samples:\n",
-        SAMPLE.format(name="lone", seeds=2, ranks=1),
+        SAMPLE.format(name="lone", seeds=3, ranks=1),
         SAMPLE.format(name="paired", seeds=1, ranks=2),
         "figures: {dpi: 60}\n",
     ]
 )
 CERTIFICATES = ("results/lone/jamming.csv", "results/paired/jamming.csv")
-PACKINGS = tuple(
-    f"results/{name}/path.csv" for name in ("lone/seed_1", "lone/seed_2", "paired/seed_1")
-)
-
-
+# Without that on two ranks, which wait for each other where the machine has other work.
+PACKINGS = tuple(f"results/lone/seed_{seed}/path.csv" for seed in (1, 2, 3))
 _ASKED = ("-o", "%Z|%k|%C|%m|%l")
 
 
@@ -114,7 +111,9 @@ class ClusterStudy(Study):
             place, comment, cores, memory, time_limit = line.split("|")
             if place == str(self.folder):
                 megabytes = int(memory.removesuffix("M"))
-                minutes = int(time_limit.partition(":")[0])
+                # Days, hours, minutes and seconds, as many of them as it takes.
+                parts = zip((1 / 60, 1, 60, 1440), re.split("[-:]", time_limit)[::-1], strict=False)
+                minutes = round(sum(weight * int(part) for weight, part in parts))
                 jobs.setdefault(comment, []).append(Asked(int(cores), megabytes, minutes))
         return jobs
 

@@ -199,9 +199,10 @@ def test_a_clusters_job_outlives_its_run_and_the_next_run_waits_for_it(submitter
     submitter.wait()
     time.sleep(1.0)
     assert job.poll() is None
-    threading.Timer(1.0, job.kill).start()
+    # By nothing else than this.
+    threading.Timer(2.0, job.terminate).start()
     with one_run():
-        assert job.wait(0) == -signal.SIGKILL
+        assert job.wait(0) == -signal.SIGTERM
     (line,) = capfd.readouterr().err.splitlines()
     assert "will be used; waiting for them" in line
     assert "results/sand/seed_1/made.json (Slurm job 17 on " in line

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from branchcrush.errors import SimulationError
-from branchcrush.files.scratch import scratch_folder
+from branchcrush.files.scratch import remove_leavings, scratch_folder
 from branchcrush.gradings.sampling import sampled_radii
 from branchcrush.lammps.files import compress_file, last_frame, write_data_file
 from branchcrush.lammps.links import linked
@@ -165,6 +165,8 @@ def compress(
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
+    # Of a job that was killed: this one makes the same, and nobody else does.
+    remove_leavings(folder)
     with (
         scratch_folder(".compress-", folder) as scratch,
         linked(inputs, scratch) as links,

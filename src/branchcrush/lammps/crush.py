@@ -11,7 +11,7 @@ import numpy as np
 
 from branchcrush.breakage.rules import Breakage
 from branchcrush.errors import SimulationError
-from branchcrush.files.scratch import scratch_folder
+from branchcrush.files.scratch import remove_leavings, scratch_folder
 from branchcrush.lammps.compression import keep
 from branchcrush.lammps.crushing import crushing_task
 from branchcrush.lammps.files import write_data_file
@@ -108,6 +108,8 @@ def crush(
         raise SimulationError("grains break on the way to a strain; the loading asks for a stress")
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
+    # Of a job that was killed: this one makes the same, and nobody else does.
+    remove_leavings(folder)
     variables = {
         **variables,
         "step_tolerance": rules.step_tolerance,
