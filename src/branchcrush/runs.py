@@ -175,7 +175,8 @@ def _wait_for_jobs(path, cluster):
         claims = standing_claims()
         if cluster or any(claim.job for claim in claims):
             end, look = time.monotonic() + _PATIENCE, _LOOK_AT_CLUSTER
-            if (words := _waiting_words(claims)) != told:
+            # Between two claims, and before the first, there is nobody to name.
+            if (words := _waiting_words(claims)) != told and (claims or not told):
                 sys.stderr.write(told := words)
                 sys.stderr.flush()
         if time.monotonic() > end:

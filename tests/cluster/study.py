@@ -117,6 +117,10 @@ class ClusterStudy(Study):
                 jobs.setdefault(comment, []).append(Asked(int(cores), megabytes, minutes))
         return jobs
 
+    def records(self):
+        """Yield the records of packings that are finished, as paths."""
+        yield from self.folder.glob("results/*/seed_*/made.json")
+
     def at_work(self):
         """Return the packings that are compressed just now, as sample/seed_1."""
         folders = self.folder.glob("results/*/seed_*/.compress-*")

@@ -6,11 +6,8 @@ import shlex
 import signal
 import subprocess
 import threading
-from pathlib import Path
 
 from tests.cluster.study import CERTIFICATES, PACKINGS, Asked
-
-RECORD = "results/{}/made.json"
 
 
 def test_the_same_bytes_by_two_jobs_at_once_and_a_packing_on_two_ranks(study, expected):
@@ -24,8 +21,8 @@ def test_the_same_bytes_by_two_jobs_at_once_and_a_packing_on_two_ranks(study, ex
     # By the estimates of the preview: half as much memory again, and minutes for seconds.
     asked = {name.removeprefix("rule_"): jobs for name, jobs in study.asked().items()}
     assert asked == {
-        **{f"compression_wildcards_lone_{seed}": [Asked(1, 600, 6)] for seed in (1, 2, 3)},
-        "compression_wildcards_paired_1": [Asked(2, 1100, 6)],
+        **{f"compression_wildcards_lone_{seed}": [Asked(1, 600, 3)] for seed in (1, 2, 3)},
+        "compression_wildcards_paired_1": [Asked(2, 1100, 3)],
         **{f"certificate_wildcards_{name}": [Asked(1, 4000, 60)] for name in ("lone", "paired")},
     }
 
@@ -43,6 +40,22 @@ def test_a_job_that_is_killed_on_its_node_is_tried_again(study, expected_packing
     assert study.results() == expected_packings
 
 
+def test_of_a_group_in_which_one_fails_those_that_are_finished_are_kept(study, expected_packings):
+    one_job = ["--groups", "compression=packings", "--group-components", "packings=3"]
+    study.command[-len(PACKINGS) : -len(PACKINGS)] = [*one_job, "--cores", "1", "--retries", "0"]
+    with study.begun() as main:
+        record = study.wait_for(lambda: next(study.records(), None), "the end of a packing")
+        made = record.stat().st_ino
+        for job in study.frozen(1).values():
+            os.kill(job, signal.SIGKILL)
+        study.wait_for(lambda: main.poll() is not None, "its end")
+    assert main.returncode == 1, study.output()
+    assert len(study.asked()) == 1
+    assert study.finish() == 0, study.output()
+    assert record.stat().st_ino == made
+    assert study.results() == expected_packings
+
+
 def test_what_is_at_work_when_the_submitter_is_killed_is_waited_for_and_used(
     study, expected_packings
 ):
@@ -57,13 +70,12 @@ def test_what_is_at_work_when_the_submitter_is_killed_is_waited_for_and_used(
                 job = rf"results/{name}/made.json \(Slurm job \d+ on node1 since "
                 assert re.search(job, study.output())
             resume(orphans)
-            records = [study.folder / RECORD.format(name) for name in orphans]
-            study.wait_for(lambda: all(map(Path.exists, records)), "the end of the orphans")
-            made = [record.stat().st_ino for record in records]
+            study.wait_for(lambda: len(list(study.records())) == 2, "the end of the orphans")
+            made = {record: record.stat().st_ino for record in study.records()}
             study.wait_for(lambda: main.poll() is not None, "its end")
     assert main.returncode == 0, study.output()
     # Not computed again: a file that is written anew is another one.
-    assert [record.stat().st_ino for record in records] == made
+    assert {record: record.stat().st_ino for record in made} == made
     assert study.results() == expected_packings
     assert set(study.most_at_once.values()) == {1}
 

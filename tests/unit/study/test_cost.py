@@ -33,8 +33,8 @@ SAND = Breakage(
 
 
 def test_a_thousand_grains_ask_for_minutes_and_a_few_hundred_megabytes():
-    # 34 200 evaluations of 1000 grains at 0.5 us, four times over, and five minutes.
-    assert packing_request(SAMPLE).runtime == 5 + 2
+    # 34 200 evaluations of 1000 grains at 0.5 us, four times over, and two minutes.
+    assert packing_request(SAMPLE).runtime == 2 + 2
     # 350 MB, and 300 bytes of 3 contacts a grain in 17 states, half as much again.
     assert packing_request(SAMPLE).mem_mb == 600
 
@@ -64,8 +64,8 @@ def test_what_is_asked_for_is_more_than_was_measured():
 def test_ranks_take_memory_each_and_less_time():
     one, four = (packing_request(replace(SAMPLE, grains=100_000, ranks=n)) for n in (1, 4))
     assert four.mem_mb - one.mem_mb == pytest.approx(1.5 * 3 * 350, abs=100)
-    # Two doublings gain 1.2 each; five minutes are asked for in any case.
-    assert (one.runtime - 5) / (four.runtime - 5) == pytest.approx(1.44, rel=0.01)
+    # Two doublings gain 1.2 each; two minutes are asked for in any case.
+    assert (one.runtime - 2) / (four.runtime - 2) == pytest.approx(1.44, rel=0.01)
 
 
 def test_a_packing_that_is_crushed_asks_for_its_fragments():
