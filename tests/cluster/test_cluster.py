@@ -76,6 +76,7 @@ def test_what_is_at_work_when_the_submitter_is_killed_is_waited_for_and_used(
     assert main.returncode == 0, study.output()
     # Not computed again: a file that is written anew is another one.
     assert {record: record.stat().st_ino for record in made} == made
+    assert [len(jobs) for jobs in study.asked().values()] == [1, 1, 1]
     assert study.results() == expected_packings
     assert set(study.most_at_once.values()) == {1}
 
