@@ -81,34 +81,54 @@ def run(packings=300, group=50, single=10, study=1000, times=10):
             grouped = _study(folder / "grouped", tiny, _on_cluster(group), used, cluster)
         finally:
             cluster.stop()
-    of_one, of_job, of_grouped = (_of_packing(told) for told in (alone, singly, grouped))
+    return derived(alone, thousand, singly, grouped, study, times)
+
+
+def derived(alone, thousand, single, grouped, study, times):
+    """Return what was measured, and what follows from it: what `run` returns.
+
+    Parameters
+    ----------
+    alone, thousand, single, grouped : dict
+        Of `run`.
+    study, times : int
+        As for `run`.
+
+    Returns
+    -------
+    dict
+    """
+    of_alone, of_single, of_grouped = map(_of_packing, (alone, single, grouped))
     return {
         "alone": alone,
         "thousand": thousand,
-        "single": singly,
+        "single": single,
         "grouped": grouped,
-        "job_seconds": of_job - of_one,
-        "grouped_seconds": of_grouped - of_one,
+        "job_seconds": of_single - of_alone,
+        "grouped_seconds": of_grouped - of_alone,
         "study": expected(
             packings=study,
-            seconds=_of_packing(thousand) * times**_GROWTH,
+            seconds=_of_packing(thousand) * times**_GROWTH + of_grouped - of_alone,
             megabytes=thousand["megabytes"] / thousand["packings"] * times,
-            files=grouped["files"] / packings,
-            requests=singly["requests_of_a_job"],
+            files=grouped["files"] / grouped["packings"],
+            requests=sum(grouped["requests"].values()) / grouped["packings"],
+            requests_of_job=sum(single["requests"].values()) / single["jobs"],
         ),
     }
 
 
-def expected(packings, seconds, megabytes, files, requests, nodes=4, cores=32, minutes=20):
+def expected(
+    packings, seconds, megabytes, files, requests, requests_of_job, nodes=4, cores=32, minutes=20
+):
     """Return what a study takes of a cluster, from what one packing takes.
 
     Parameters
     ----------
     packings : int
-    seconds, megabytes, files : float
-        Of a core, of the disk, and how many files, for each packing.
-    requests : float
-        That a job makes of the controller.
+    seconds, megabytes, files, requests : float
+        Of a core, of the disk, how many files, and of the controller, for each packing.
+    requests_of_job : float
+        Of the controller, for each job besides.
     nodes, cores : int
         At hand, and those of a node.
     minutes : float
@@ -122,7 +142,7 @@ def expected(packings, seconds, megabytes, files, requests, nodes=4, cores=32, m
 
     Examples
     --------
-    >>> expected(1000, 300.0, 40.0, 20.0, 10.0, nodes=2, cores=10)["group"]
+    >>> expected(1000, 300.0, 40.0, 20.0, 5.0, 10.0, nodes=2, cores=10)["group"]
     4
     """
     group = math.ceil(60.0 * minutes / seconds)
@@ -130,6 +150,7 @@ def expected(packings, seconds, megabytes, files, requests, nodes=4, cores=32, m
     # As many at a time as there are cores, each as long as all its packings.
     hours = math.ceil(jobs / (nodes * cores)) * group * seconds / 3600.0
     looks = 3600.0 * hours / 180.0  # at the queue, at most so far apart
+    requests = packings * requests + jobs * requests_of_job + looks
     return {
         "group": group,
         "jobs": jobs,
@@ -137,8 +158,8 @@ def expected(packings, seconds, megabytes, files, requests, nodes=4, cores=32, m
         "hours": hours,
         "gigabytes": packings * megabytes / 1000.0,
         "files": round(packings * files),
-        "requests": round(jobs * requests + looks),
-        "requests_a_minute": (jobs * requests + looks) / (60.0 * hours),
+        "requests": round(requests),
+        "requests_a_minute": requests / (60.0 * hours),
     }
 
 
@@ -183,12 +204,12 @@ def _study(folder, config, arguments, used, cluster=None):
         "megabytes": sum(path.stat().st_size for path in files) / 1e6,
     }
     if cluster is not None:
-        table = cluster.said("squeue", "-h", "--states", "all", "-o", "%Z|%A")
-        jobs = sum(line.startswith(f"{folder}|") for line in table.splitlines())
         after = _requests(cluster)
         asked = {kind: after[kind] - before.get(kind, 0) for kind in after}
-        told |= {"jobs": jobs, "requests": {kind: n for kind, n in asked.items() if n}}
-        told["requests_of_a_job"] = sum(asked.values()) / jobs
+        told |= {
+            "jobs": asked["REQUEST_SUBMIT_BATCH_JOB"],
+            "requests": {kind: number for kind, number in asked.items() if number},
+        }
     return told
 
 
