@@ -23,10 +23,10 @@ unexport PYTHONPATH PYTHONHOME PYTHONDONTWRITEBYTECODE
 export PYTHONNOUSERSITE := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help run preview verify example gallery tutorial quality findings mixing crushing bench publish schema test lint docs lock clean own-environment
+.PHONY: help run preview verify example gallery tutorial quality findings mixing crushing bench publish schema test test-cluster lint docs slurm lock clean own-environment
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
 
 run: $(READY) ## the study of config.yaml: results/, its figures and the exponent
 	$(IN_ENVIRONMENT) snakemake --cores $(CORES)
@@ -113,6 +113,9 @@ schema: $(READY) ## config.schema.json, and the pages that are made: tables of k
 test: lint docs ## the linters, the site, then every test
 	$(IN_ENVIRONMENT) pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 
+test-cluster: $(DEVELOP) $(VENV)/.slurm ## a study on a cluster of this machine alone; needs root, and Debian's slurm-wlm and munge
+	$(IN_ENVIRONMENT) pytest tests/cluster
+
 lint: $(DEVELOP) ## style, the workflow's own checks, which room imports which, types
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -172,25 +175,37 @@ $(VENV)/.develop: $(VENV)/.packages requirements-dev.lock | $(READY)
 	@$(call INSTALL,requirements.lock requirements-dev.lock)
 	@touch $@
 
-# One resolution for both, then two files: what a run needs, and what is to be added to it for all
-# else. What is in the locks stays at its version: `make lock UPGRADE=--upgrade` moves everything to
-# the newest. uv ignores pip's settings, so no local index lends its own hashes; without
+# Of its own: Snakemake imports a plugin of it at each start, on whatever machine.
+slurm: $(VENV)/.slurm ## add to the environment what a cluster with Slurm needs: docs/cluster.md
+
+$(VENV)/.slurm: $(VENV)/.packages requirements-slurm.lock | $(READY)
+	@echo "Adding to $(VENV) what Slurm needs"
+	@$(call INSTALL,requirements.lock requirements-slurm.lock)
+	@touch $@
+
+# One resolution for all, then three files: what a run needs, and what is to be added to it for Slurm
+# and for all else. What is in the locks stays at its version: `make lock UPGRADE=--upgrade` moves
+# everything to the newest. uv ignores pip's settings, so no local index lends its own hashes; without
 # --emit-index-url no address is written either.
 COMPILE := env -u UV_INDEX -u UV_EXTRA_INDEX_URL -u UV_FIND_LINKS -u UV_DEFAULT_INDEX -u UV_INDEX_URL \
   build/lock/bin/uv pip compile --quiet --no-config --no-emit-index-url \
   --universal --python-version 3.11 --fork-strategy fewest \
   --generate-hashes --custom-compile-command "make lock" pyproject.toml
 
-lock: ## write requirements.lock and requirements-dev.lock anew from pyproject.toml
+WITHOUT = awk 'NR == FNR {had[$$0]; next} /^[^ \#]/ {keep = !($$0 in had)} FNR < 3 || keep'
+
+lock: ## write the three locks anew from pyproject.toml
 	$(PYTHON) -m venv --clear build/lock
 	build/lock/bin/python -m pip install --quiet --disable-pip-version-check uv
-	cat requirements.lock requirements-dev.lock > build/lock/all.txt
+	cat requirements.lock requirements-slurm.lock requirements-dev.lock > build/lock/all.txt
 	$(COMPILE) --all-extras $(UPGRADE) --output-file build/lock/all.txt
 	cp build/lock/all.txt build/lock/requirements.lock
+	cp build/lock/all.txt build/lock/with-slurm.txt
 	$(COMPILE) --extra build --output-file build/lock/requirements.lock
-	awk 'NR == FNR {run[$$0]; next} /^[^ #]/ {keep = !($$0 in run)} FNR < 3 || keep' \
-	  build/lock/requirements.lock build/lock/all.txt > build/lock/requirements-dev.lock
-	mv build/lock/requirements.lock build/lock/requirements-dev.lock .
+	$(COMPILE) --extra build --extra slurm --output-file build/lock/with-slurm.txt
+	$(WITHOUT) build/lock/requirements.lock build/lock/with-slurm.txt > requirements-slurm.lock
+	$(WITHOUT) build/lock/with-slurm.txt build/lock/all.txt > requirements-dev.lock
+	mv build/lock/requirements.lock .
 
 clean: ## remove the environment and what the tools leave; results/ stays
 	rm -rf $(VENV) build .pytest_cache .ruff_cache .mypy_cache .import_linter_cache .hypothesis src/*.egg-info

@@ -1,9 +1,9 @@
 """Measure a part, and write what came of it: python -m benchmarks PART [NAME=VALUE ...]
 
-PART is one of the names below, or `all`, which leaves out those that need a setting (`before`) and
-those that measure no time (`damage`, `kills`, `orphans`, `fuzz`). A NAME=VALUE, the value as JSON,
-is a setting of the part's `run`, for a trial; its result goes to a folder named by --results, so
-that no trial is taken for a result.
+PART is one of the names below, or `all`, which leaves out those that need a setting (`before`) or
+Slurm (`cluster`) and those that measure no time (`damage`, `kills`, `orphans`, `fuzz`). A
+NAME=VALUE, the value as JSON, is a setting of the part's `run`, for a trial; its result goes to a
+folder named by --results, so that no trial is taken for a result.
 """
 
 import argparse
@@ -37,6 +37,8 @@ PARTS = (
 )
 # These need settings, so `all` leaves them out.
 NEED_SETTINGS = ("before",)
+# It begins daemons, as root.
+NEED_SLURM = ("cluster",)
 # What holds, not what it takes.
 NOT_TIMED = ("damage", "kills", "orphans", "fuzz")
 RESULTS = Path(__file__).with_name("results")
@@ -47,7 +49,7 @@ _MOST_LINES = 20
 def main(arguments=None):
     """Run the parts asked for; return 1 if one of them failed, after all the others."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
-    parser.add_argument("part", choices=["all", *PARTS, *NEED_SETTINGS, *NOT_TIMED])
+    parser.add_argument("part", choices=["all", *PARTS, *NEED_SETTINGS, *NEED_SLURM, *NOT_TIMED])
     parser.add_argument("settings", nargs="*", metavar="NAME=VALUE")
     parser.add_argument("--results", type=Path, help="folder of what is written")
     asked = parser.parse_args(arguments)

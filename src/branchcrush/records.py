@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from branchcrush import __version__
+from branchcrush.claims import claimed
 from branchcrush.files.digests import Digests, digests_of, file_digest
 from branchcrush.files.intact import Records, check_inputs, refuse
 from branchcrush.files.made import below_results, read_record, record_bytes
@@ -26,7 +27,8 @@ KEPT_DUMPS = ("none", "last", "all")
 def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
 
-    Its inputs are read before, and held against the records of the jobs that made them.
+    Its inputs are read before, and held against the records of the jobs that made them. Whoever
+    else makes the same results, from another run or by a job that was begun twice, is waited for.
 
     Parameters
     ----------
@@ -43,7 +45,7 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     SystemExit
         For a `BranchcrushError`; one is an input that is not what its job left.
     """
-    with job(snakemake.log[0]):
+    with job(snakemake.log[0]), claimed(snakemake.output.record):
         beside: list[str] = []
         digests = Digests(snakemake.rule, trust=False)
         record = _made_with(snakemake, snakemake.rule)

@@ -1,15 +1,15 @@
 """One run of the workflow in a folder at a time, and jobs that end with the run that began them.
 
 A run holds `.branchcrush/run.lock`, and each of its jobs `.branchcrush/jobs.lock`. The kernel lets
-both go when their holder dies, whichever way, so that no lock stays behind.
+both go when their holder dies, whichever way, so that no lock stays behind. Jobs of a cluster
+outlive a run that dies: the next one waits for those at work, and none begins any more.
 """
 
 import contextlib
-import errno
-import fcntl
 import json
 import os
 import shlex
+import shutil
 import signal
 import sys
 import tempfile
@@ -20,24 +20,36 @@ from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
+from branchcrush.claims import CLAIMS, Claim, standing_claims
 from branchcrush.errors import RunError
+from branchcrush.files.locks import locked
 from branchcrush.files.scratch import remove_dead, remove_leavings
 from branchcrush.lammps.processes import end_with_parent, start_of
 
 _FOLDER = ".branchcrush"
-# Tells jobs which run they belong to.
-_VARIABLE = "BRANCHCRUSH_RUN"
-# How often a job looks whether its run lives, and how long a run waits for jobs of a dead one [s].
+# Tells jobs which run they belong to; its last word, that they outlive it.
+_VARIABLE, _CLUSTER = "BRANCHCRUSH_RUN", "cluster"
+# How often a job looks whether its run lives, and how long a run waits for jobs of a dead one that
+# are to end with it [s].
 _LOOK, _PATIENCE = 0.25, 20.0
-# A file system that has no locks.
-_NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP}
+# Each of them is looked at over the network.
+_LOOK_AT_CLUSTER = 2.0
+# Jobs that are named of those that are waited for.
+_MOST_NAMED = 5
 
 
 @contextlib.contextmanager
-def one_run() -> Iterator[None]:
+def one_run(*, cluster: bool = False) -> Iterator[None]:
     """Have the working folder for one run, and clear away what dead runs left in it.
 
-    Jobs that begin meanwhile and call `join_run` end when this process does, and at Ctrl-C.
+    Jobs that begin meanwhile and call `join_run` end when this process does, and at Ctrl-C. Those
+    of a cluster are ended by its scheduler: they go on where this process is killed, and the next
+    run waits for them without a limit.
+
+    Parameters
+    ----------
+    cluster : bool
+        Whether the jobs are a cluster's.
 
     Raises
     ------
@@ -56,8 +68,9 @@ def one_run() -> Iterator[None]:
     folder = Path(_FOLDER).resolve()
     with _held(folder / "run.lock") as lock:
         run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {start_of(os.getpid())}"
+        run += f" {_CLUSTER}" if cluster else ""
         _write(lock, {"run": run, **_holder()})
-        _wait_for_jobs(folder / "jobs.lock")
+        _wait_for_jobs(folder / "jobs.lock", cluster)
         remove_leavings("results")
         remove_dead(tempfile.gettempdir(), "branchcrush-")
         os.environ[_VARIABLE] = run
@@ -69,25 +82,34 @@ def one_run() -> Iterator[None]:
 
 
 def join_run() -> None:
-    """Let this process, a job, end when the run that began it ends, whichever way.
+    """Let this process, of a job, end when the run that began it ends, whichever way.
 
+    That of a cluster ends only where its run has ended, or another one has begun, before it joins.
     Does nothing where no run began it.
     """
     run = os.environ.get(_VARIABLE)
     if run is None:
         return
-    # Of what stands between this process and the run, such as a shell. First of all, since it may
-    # end at any moment; then it is looked at, since it may have ended before.
-    end_with_parent()
-    if not _is_of(os.getppid(), run):
-        os.kill(os.getpid(), signal.SIGKILL)
+    of_cluster = run.endswith(f" {_CLUSTER}")
+    if not of_cluster:
+        # Of what stands between this process and the run, such as a shell. First of all, since it
+        # may end at any moment; then it is looked at, since it may have ended before. A scheduler
+        # ends all that its job began, whose parent is one of its own.
+        end_with_parent()
+        if not _is_of(os.getppid(), run):
+            os.kill(os.getpid(), signal.SIGKILL)
     folder = Path(_FOLDER).resolve()
     # Held until this process ends: no other run begins before.
-    _locked(folder / "jobs.lock", fcntl.LOCK_SH, wait=True)
+    locked(folder / "jobs.lock", shared=True, wait=True)
     if not _lives(run, folder / "run.lock"):
+        sys.stderr.write(
+            "branchcrush: the run that began this job has ended, and so does the job\n"
+        )
+        sys.stderr.flush()
         os.kill(os.getpid(), signal.SIGKILL)
-    watch = threading.Thread(target=_end_with, args=(run, folder / "run.lock"), daemon=True)
-    watch.start()
+    if not of_cluster:
+        watch = threading.Thread(target=_end_with, args=(run, folder / "run.lock"), daemon=True)
+        watch.start()
 
 
 def _is_of(process, run):
@@ -108,7 +130,7 @@ def _held(path):
     """Hold the lock of a run, or refuse and name who does."""
     with _folder_errors():
         path.parent.mkdir(exist_ok=True)
-        lock, free = _locked(path, fcntl.LOCK_EX)
+        lock, free = locked(path)
     try:
         if not free:
             raise RunError(_who_has_it(path))
@@ -141,8 +163,8 @@ def _end_with(run, lock):
 
 def _lives(run, lock):
     """Return whether a run has not ended yet."""
-    _, machine, process, start = run.split(" ")
-    if machine == _machine() and start != start_of(process):
+    _, machine, process, start, *cluster = run.split(" ")
+    if not cluster and machine == _machine() and start != start_of(process):
         return False
     try:
         text = lock.read_text(encoding="utf-8")
@@ -152,44 +174,44 @@ def _lives(run, lock):
     return run in text
 
 
-def _locked(path, kind, wait=False):
-    """Return a file that is open for as long as this process lives, and whether the lock is had."""
-    while True:
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
-        try:
-            fcntl.flock(file, kind | (0 if wait else fcntl.LOCK_NB))
-        except OSError as error:
-            if error.errno in _NO_LOCKS:
-                sys.stderr.write(
-                    f"branchcrush: {path} is on a file system without locks, so nothing keeps two "
-                    "runs in this folder apart\n"
-                )
-                return file, True
-            if error.errno not in (errno.EWOULDBLOCK, errno.EACCES):
-                raise
-            return file, False
-        # Somebody may have removed it meanwhile, and another locked its successor.
-        with contextlib.suppress(FileNotFoundError):
-            if os.path.samestat(os.fstat(file), os.stat(path)):
-                return file, True
-        os.close(file)
+def _wait_for_jobs(path, cluster):
+    """Wait until no job of an earlier run is at work, and say which are where that takes long.
 
-
-def _wait_for_jobs(path):
-    """Wait until no job of an earlier run is at work: each looks often whether its run lives."""
-    end = time.monotonic() + _PATIENCE
+    Those of this machine look often whether their run lives; those of a cluster are waited for.
+    """
+    end, look, told = time.monotonic() + _PATIENCE, _LOOK / 2, ""
     while True:
         with _folder_errors():
-            lock, free = _locked(path, fcntl.LOCK_EX)
+            lock, free = locked(path)
+            if free:
+                # Of dead jobs.
+                shutil.rmtree(CLAIMS, ignore_errors=True)
             os.close(lock)
         if free:
             return
+        claims = standing_claims()
+        if cluster or any(claim.job for claim in claims):
+            end, look = time.monotonic() + _PATIENCE, _LOOK_AT_CLUSTER
+            # Between two claims, and before the first, there is nobody to name.
+            if (words := _waiting_words(claims)) != told and (claims or not told):
+                sys.stderr.write(told := words)
+                sys.stderr.flush()
         if time.monotonic() > end:
             raise RunError(
                 "jobs of an earlier run are still at work in this folder, perhaps on another "
                 "machine: end them, then repeat the command"
             )
-        time.sleep(_LOOK / 2)
+        time.sleep(look)
+
+
+def _waiting_words(claims: list[Claim]) -> str:
+    """Return which jobs are waited for, and what to do instead."""
+    named = "; ".join(map(str, claims[:_MOST_NAMED]))
+    more = f"; and {len(claims) - _MOST_NAMED} more" if len(claims) > _MOST_NAMED else ""
+    return (
+        "branchcrush: jobs of an earlier run are still at work on the cluster, and what they make "
+        f"will be used; waiting for them, or end them{': ' * bool(named)}{named}{more}\n"
+    )
 
 
 def _who_has_it(lock):

@@ -215,13 +215,16 @@ class Screen:
             self.run.begin(job)
         self.is_interrupted |= "SIGINT" in self._ended
         message = failure_message(job.log) if log_mark(job.log) != job.log_before else ""
-        reason = message or self._ended or "it left no message"
+        # Of a job that a cluster ended, its scheduler tells why, in a log of its own.
+        scheduler = getattr(record, "rule_msg", None)
+        reason = message or self._ended or scheduler or "it left no message"
+        at = record.log[-1] if scheduler and not message else job.log
         self._ended = ""
         self.run.fail(number, reason)
         self._progress.pop(number, None)
         self._show(time.monotonic())
         if not self.is_interrupted:
-            log = f" (log: {seen_from(self._start_folder, job.log)})" if job.log else ""
+            log = f" (log: {seen_from(self._start_folder, at)})" if at else ""
             self._say(f"FAILED {job}: {reason}{log}", is_error=True, timed=True, always=True)
 
     def _group_failed(self, record: Any) -> None:

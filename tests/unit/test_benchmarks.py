@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from benchmarks import large
+from benchmarks import cluster, large
 from benchmarks.before import compared
 from benchmarks.measure import MemoryOfChildren, run_timed
 from benchmarks.sizes import estimate, line_of_size, power_of_size, shares
@@ -114,3 +114,14 @@ def test_a_state_of_a_small_packing_from_placement_on():
     parts = ("approach", "steps", "final")
     assert row["evaluations"] == sum(row[f"{part}_evaluations"] for part in parts)
     assert 0.5 < result["jamming_solid_fraction"] < 0.72
+
+
+def test_a_large_study_on_a_cluster_by_hand():
+    found = cluster.expected(1000, 300.0, 40.0, 20.0, 5.0, 10.0, nodes=2, cores=10)
+    # Four of five minutes make twenty; 250 such jobs on 20 cores are 13 waves.
+    assert (found["group"], found["jobs"]) == (4, 250)
+    assert found["hours"] == pytest.approx(13 * 20 / 60)
+    assert found["core_hours"] == pytest.approx(1000 / 12)
+    assert (found["gigabytes"], found["files"]) == (40.0, 20_000)
+    # Five a packing and ten a job, and a look at the queue every three minutes.
+    assert found["requests_a_minute"] == pytest.approx((5000 + 2500 + 13 * 20 / 3) / (13 * 20))

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 REPOSITORY = Path(__file__).parents[2]
-RUN, DEV = "requirements.lock", "requirements-dev.lock"
+RUN, DEV, SLURM = "requirements.lock", "requirements-dev.lock", "requirements-slurm.lock"
 
 
 def lines(lock):
@@ -35,7 +35,7 @@ def project():
 @pytest.fixture
 def make(tmp_path):
     """Return a function that runs make on a copy of what decides about the environment."""
-    for name in ("Makefile", "pyproject.toml", RUN, DEV):
+    for name in ("Makefile", "pyproject.toml", RUN, DEV, SLURM):
         shutil.copy(REPOSITORY / name, tmp_path)
     # The tests themselves may be run by make, which hands its flags on.
     environment = {name: value for name, value in os.environ.items() if "MAKE" not in name}
@@ -58,15 +58,21 @@ def test_a_run_installs_what_it_needs_and_no_more(project):
         assert not named & pins(RUN).keys()
 
 
+def test_what_slurm_needs_is_pinned_apart(project):
+    # Snakemake imports it at each start, so no other target installs it.
+    assert names(project["optional-dependencies"]["slurm"]) <= pins(SLURM).keys()
+    assert not pins(SLURM).keys() & (pins(RUN).keys() | pins(DEV).keys())
+
+
 def test_the_locks_agree():
     both = pins(RUN).keys() & pins(DEV).keys()
     assert {name: pins(RUN)[name] for name in both} == {name: pins(DEV)[name] for name in both}
 
 
-@pytest.mark.parametrize("lock", [RUN, DEV])
-def test_a_lock_is_pinned_hashed_and_names_no_address(lock):
+@pytest.mark.parametrize(("lock", "fewest"), [(RUN, 20), (DEV, 20), (SLURM, 2)])
+def test_a_lock_is_pinned_hashed_and_names_no_address(lock, fewest):
     entries = [line for line in lines(lock) if line and not line.startswith(("#", " "))]
-    assert len(entries) > 20
+    assert len(entries) >= fewest
     for entry in entries:
         assert re.fullmatch(r"[a-z0-9.-]+==\S+( ; .+)? \\", entry)
         assert lines(lock)[lines(lock).index(entry) + 1].startswith("    --hash=sha256:")
@@ -78,6 +84,14 @@ def test_a_run_does_not_touch_the_lock_of_the_tests(make, target):
     planned = make("--dry-run", target).stdout
     assert RUN in planned
     assert DEV not in planned
+
+
+def test_slurm_is_added_where_it_is_asked_for(make):
+    for target in ("run", "test", "lint"):
+        assert SLURM not in make("--dry-run", target).stdout
+    for target in ("slurm", "test-cluster"):
+        planned = make("--dry-run", target).stdout
+        assert planned.index(RUN) < planned.index(SLURM)
 
 
 @pytest.mark.parametrize("target", ["test", "lint", "docs"])

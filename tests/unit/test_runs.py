@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -155,3 +156,85 @@ def test_folder_that_cannot_be_written_to_is_told(folder):
     (folder / ".branchcrush").touch()
     with pytest.raises(RunError, match=r"cannot be locked for a run: .*branchcrush"), one_run():
         pass
+
+
+# Begins a run whose jobs are a cluster's, tells which it is, and waits.
+CLUSTER_RUN = """\
+import os, time
+from branchcrush.runs import one_run
+with one_run(cluster=True):
+    print(os.environ["BRANCHCRUSH_RUN"], flush=True)
+    time.sleep(60)
+"""
+CLUSTER_JOB = """\
+import time
+from branchcrush.claims import claimed
+from branchcrush.runs import join_run
+join_run()
+with claimed("results/sand/seed_1/made.json"):
+    print(1, flush=True)
+    time.sleep(60)
+"""
+
+
+@pytest.fixture
+def submitter():
+    """A run of a cluster as a process of its own, and what begins a job of it."""
+    main = subprocess.Popen([sys.executable, "-c", CLUSTER_RUN], stdout=subprocess.PIPE, text=True)
+    environment = {**of_run(main.stdout.readline().strip()), "SLURM_JOB_ID": "17"}
+    jobs = []
+
+    def job():
+        jobs.append(
+            subprocess.Popen(
+                [sys.executable, "-c", CLUSTER_JOB],
+                env=environment,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+        )
+        return jobs[-1]
+
+    main.job = job
+    yield main
+    for process in (main, *jobs):
+        process.kill()
+        process.communicate()
+
+
+def test_a_clusters_job_outlives_its_run_and_the_next_run_waits_for_it(submitter, capfd):
+    job = submitter.job()
+    assert job.stdout.readline() == "1\n"
+    submitter.kill()
+    submitter.wait()
+    time.sleep(1.0)
+    assert job.poll() is None
+    # By nothing else than this.
+    threading.Timer(2.0, job.terminate).start()
+    with one_run():
+        assert job.wait(0) == -signal.SIGTERM
+    (line,) = capfd.readouterr().err.splitlines()
+    assert "will be used; waiting for them" in line
+    assert "results/sand/seed_1/made.json (Slurm job 17 on " in line
+
+
+def test_a_clusters_job_that_begins_when_another_run_has_the_folder_ends_at_once(submitter):
+    submitter.kill()
+    submitter.wait()
+    # Nobody has the folder: what it makes will be used.
+    job = submitter.job()
+    assert job.stdout.readline() == "1\n"
+    job.kill()
+    job.wait()
+    with one_run(cluster=True):
+        job = submitter.job()
+        assert job.wait(10) == -signal.SIGKILL
+        assert job.stdout.read() == ""
+        assert "the run that began this job has ended" in job.stderr.read()
+
+
+def test_a_clusters_job_that_begins_after_ctrl_c_ends_at_once(submitter):
+    submitter.send_signal(signal.SIGINT)
+    submitter.wait()
+    assert submitter.job().wait(10) == -signal.SIGKILL

@@ -6,6 +6,7 @@ import shlex
 from pathlib import Path
 
 import pytest
+import yte
 from snakemake.cli import parse_args
 
 ROOT = Path(__file__).parents[2]
@@ -37,6 +38,27 @@ def test_by_every_command_of_make(capsys, monkeypatch):
     assert len(MADE) >= 5
     for line in MADE:
         read(shlex.split(line.replace("$(CORES)", "2")), capsys)
+
+
+def profile(name):
+    with open(ROOT / "profiles" / name / "config.yaml", encoding="utf-8") as file:
+        return yte.process_yaml(file, require_use_yte=True)
+
+
+def test_the_profile_of_slurm_holds_what_the_default_one_does():
+    # It takes its place.
+    assert profile("default").items() <= profile("slurm").items()
+    assert profile("slurm")["executor"] == "slurm"
+
+
+def test_the_profile_of_slurm_takes_account_and_partition_from_slurms_own_variables(monkeypatch):
+    names = {"slurm_account": "SBATCH_ACCOUNT", "slurm_partition": "SBATCH_PARTITION"}
+    for variable in names.values():
+        monkeypatch.delenv(variable, raising=False)
+    assert not names.keys() & profile("slurm")["default-resources"].keys()
+    for resource, variable in names.items():
+        monkeypatch.setenv(variable, "ab12")
+        assert profile("slurm")["default-resources"][resource] == "ab12"
 
 
 def test_what_a_job_left_unfinished_is_made_anew_with_the_profile_and_without(finished):

@@ -1,12 +1,15 @@
 """What the rules share: the settings of a sample, its files, and the code a job depends on."""
 
+from functools import cache
 from pathlib import Path
 
 from branchcrush.config.gradings import grading_data_files
 from branchcrush.config.names import REFINED
 from branchcrush.config.packing_files import frame_files
+from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
+from branchcrush.study.cost import packing_request
 
 # Of this project: a workflow that uses it as a module has another basedir.
 ROOT = Path(workflow.current_basedir).parents[1]
@@ -46,6 +49,21 @@ def section(*keys):
         return chosen
 
     return values
+
+
+@cache
+def request_of(sample, crushed, attempt):
+    """Return what the job of a packing asks a cluster for; all packings of a sample are alike."""
+    settings = {**SAMPLES, **REFINED_SAMPLES}[sample]
+    breakage = breakage_of(settings["breakage"]) if crushed else None
+    return packing_request(sample_of(settings), breakage, attempt)
+
+
+def asked(resource, crushed=False):
+    """Return a resources function: mem_mb or runtime that a packing asks a cluster for."""
+    return lambda wildcards, attempt: getattr(
+        request_of(wildcards.sample, crushed, attempt), resource
+    )
 
 
 def data_files(wildcards):

@@ -29,6 +29,9 @@ rule compression:
     # MPI processes that share one packing; no more than there are cores. Not among the params: what
     # is certified does not depend on them.
     threads: lambda wildcards: settings_of(wildcards)["ranks"]
+    resources:
+        mem_mb=asked("mem_mb"),
+        runtime=asked("runtime"),
     params:
         # A script includes others by names that it makes up: all that there are.
         code=code(

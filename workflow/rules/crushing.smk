@@ -21,6 +21,9 @@ rule crushing:
     conda:
         "../envs/branchcrush.yaml"
     threads: lambda wildcards: settings_of(wildcards)["ranks"]
+    resources:
+        mem_mb=asked("mem_mb", crushed=True),
+        runtime=asked("runtime", crushed=True),
     params:
         code=code(
             "crushing",

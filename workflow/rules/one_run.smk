@@ -7,7 +7,7 @@ from snakemake.logging import logger
 from branchcrush.config.memory import memory_warnings
 from branchcrush.errors import ConfigError, RunError
 from branchcrush.files.memory import machine_memory
-from branchcrush.runs import one_run
+from branchcrush.runs import join_run, one_run
 
 
 def alone(execute):
@@ -29,7 +29,7 @@ def alone(execute):
             cores = workflow.resource_settings.cores or 1
             for line in memory_warnings(SETTINGS, cores, machine_memory()) if here else ():
                 logger.warning(line)
-            with one_run():
+            with one_run(cluster=not here):
                 return execution()
         except (ConfigError, RunError) as error:
             raise WorkflowError(str(error)) from None
@@ -42,3 +42,6 @@ def alone(execute):
 if workflow.is_main_process and not hasattr(workflow, "alone"):
     workflow.alone = True
     workflow.execute = alone(workflow.execute)
+elif not workflow.is_main_process:
+    # Snakemake itself in a job of a cluster: before it removes results, which may be another run's.
+    join_run()

@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-from branchcrush.files.scratch import scratch_folder
+from branchcrush.files.scratch import remove_leavings, scratch_folder
 from branchcrush.lammps.checkpoint import Checkpoint
 from branchcrush.lammps.files import compress_file, last_frame
 from branchcrush.lammps.links import linked
@@ -33,6 +33,8 @@ def workplace(
     tuple of Path
         The folder, and one in which it is `output` and that of in.compress `inputs`.
     """
+    # Of a job that was killed: this one makes the same, and nobody else does.
+    remove_leavings(folder)
     own = scratch_folder(".compress-", folder) if checkpoint is None else nullcontext(checkpoint)
     with own as place:
         work = Path(place).resolve()

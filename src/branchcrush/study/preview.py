@@ -19,18 +19,12 @@ from branchcrush.gradings.representativity import realised_gap, representativity
 from branchcrush.gradings.size_fits import SizeFit
 from branchcrush.loading.memory import expected_memory
 from branchcrush.loading.sample import Sample
-from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.packings.contact_laws import OVERLAP_FLAG
 from branchcrush.packings.geometry import UNIT_SPHERE
+from branchcrush.study.cost import compression_cost
 from branchcrush.study.preview_breakage import Breaking, breaking
 from branchcrush.study.preview_rods import Carrying, carrying
 
-# Force evaluations of a packing of 1000 grains, for each strain step and more for each saved state,
-# to strains and to stresses: a stress is sought among packings at rest. A packing may need half or
-# twice as many.
-_TO_STRAIN, _TO_STRESS = (70.0, 2000.0), (1000.0, 6500.0)
-# Grains between which a strain has to travel: evaluations grow about so with their number.
-_GROWTH = 1.0 / 3.0
 # The columns of the sizes: smallest, D10 to D90, largest [%].
 PERCENTS = (0, 10, 30, 50, 60, 90, 100)
 _LARGEST_GRAINS = 10
@@ -130,16 +124,11 @@ def sample_plan(
     >>> plan.force_evaluations, round(plan.seconds, 9), plan.asked.by_mass[3]
     (34200.0, 6.84, 0.002)
     """
-    grading, loading, grains = sample.grading, sample.loading, sample.grains
+    grading, grains = sample.grading, sample.grains
     radii = np.sort(np.asarray(radii, dtype=float))[::-1]
     drawn = from_radii(radii)
     solid = UNIT_SPHERE * grading.moment(3) * grains
-    overlap = _overlap_ratio(sample)
-    steps, states = planned_steps(
-        loading, sample.initial_solid_fraction, sample.strain_step, overlap
-    )
-    step, state = _TO_STRESS if loading.stresses else _TO_STRAIN
-    evaluations = (step * steps + state * states) * (grains / 1000.0) ** _GROWTH
+    states, overlap, evaluations = compression_cost(sample)
     # A refined seed takes twice the strain steps.
     packings = len(sample.seeds) + 2.0 * sample.refined_seeds
     mass = np.cumsum(radii**3) / np.sum(radii**3)
@@ -206,15 +195,6 @@ def sizes_of(grading: Grading) -> Sizes:
             for quantile in (grading.mass_ppf, grading.number_ppf)
         )
     )
-
-
-def _overlap_ratio(sample: Sample) -> float:
-    """Return about how deep grains are pressed together at the end; 0 of strains [-]."""
-    stresses = sample.loading.stresses
-    if not stresses:
-        return 0.0
-    radius = float(sample.grading.mass_ppf(0.5))
-    return expected_overlap_ratio(stresses[-1], radius, sample.law)
 
 
 def _few_grains(sample, standing, unit, refused):

@@ -52,14 +52,17 @@ class Told:
     def finish(self, number):
         self.record(event=LogEvent.JOB_FINISHED, job_id=number)
 
-    def fail(self, number, rule, log="", **wildcards):
+    def fail(self, number, rule, log="", scheduler=("", ""), **wildcards):
+        """Tell of a job that failed, and what a scheduler says of it and in which log."""
+        said, where = scheduler
         self.record(
             event=LogEvent.JOB_ERROR,
             level=logging.ERROR,
             jobid=number,
             rule_name=rule,
             wildcards=wildcards,
-            log=[str(log)] if log else [],
+            log=[str(each) for each in (log, where) if each],
+            rule_msg=said or None,
         )
 
     def lines(self):

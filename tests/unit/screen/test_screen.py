@@ -187,6 +187,20 @@ def test_a_message_that_an_earlier_run_left_is_not_this_ones(told, packing_log):
     assert screen.lines()[-1] == "FAILED a seed 1: it left no message (log: old.log)"
 
 
+def test_a_job_that_a_cluster_ended_is_told_by_its_scheduler(told, packing_log):
+    screen = told()
+    screen.plan(compression=2)
+    scheduler = ("SLURM-job '17' failed, SLURM status is: 'TIMEOUT'.", "17.log")
+    screen.begin(1, "compression", "1.log", sample="a", seed="1")
+    screen.fail(1, "compression", "1.log", scheduler, sample="a", seed="1")
+    assert screen.lines()[-1] == f"FAILED a seed 1: {scheduler[0]} (log: 17.log)"
+    # Where the job itself has said why, that is told.
+    screen.begin(2, "compression", "2.log", sample="a", seed="2")
+    packing_log("2.log", "branchcrush: no load\n")
+    screen.fail(2, "compression", "2.log", scheduler, sample="a", seed="2")
+    assert screen.lines()[-1] == "FAILED a seed 2: no load (log: 2.log)"
+
+
 def test_an_interrupted_run_says_that_the_same_command_goes_on(told):
     screen = told()
     screen.plan(compression=2)
