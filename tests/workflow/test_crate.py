@@ -6,11 +6,10 @@ import shutil
 from datetime import date
 
 import pytest
+from rocrate.rocrate import ROCrate
 
 from branchcrush.command.main import main
 from branchcrush.files.digests import file_digest
-
-ROCrate = pytest.importorskip("rocrate.rocrate", reason="the extra crate is not here").ROCrate
 
 
 @pytest.fixture(scope="module")

@@ -5,14 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from vtkmodules import vtkIOXML as vtk_xml
+from vtkmodules.util import numpy_support
 
 from branchcrush.command.main import main
 from branchcrush.files.tables import provenance, write_json
 from branchcrush.files.vtk_xml import write_polydata
 from tests.unit.results.conftest import leave_record, touching, write_results
-
-vtk_xml = pytest.importorskip("vtkmodules.vtkIOXML", reason="vtk is not installed")
-numpy_support = pytest.importorskip("vtkmodules.util.numpy_support")
 
 
 def read(path):
