@@ -7,93 +7,29 @@ from types import SimpleNamespace
 
 import pytest
 
-from branchcrush.errors import FitError, ResultsError
-from branchcrush.files.made import read_record, record_bytes
+from branchcrush.errors import FitError
+from branchcrush.files.made import read_record
 from branchcrush.records import (
     OutOfDate,
-    checked_dump,
     dumps_not_kept,
     kept_of_other_versions,
     lines_of,
     out_of_date,
     recorded_job,
 )
+from tests.unit.recorded_jobs import (
+    PATH,
+    RECORD,
+    Named,
+    as_script,
+    do,
+    fit,
+    here,
+    reasons,
+    walk,
+)
 
-RECORD = "results/sand/made/fit.json"
-PATH, MADE = "results/sand/seed_1/path.csv", "results/sand/seed_1/made.json"
-
-
-class Named(list):
-    """Files or values, by name and by number: what Snakemake gives to scripts and has in jobs."""
-
-    def __init__(self, **values):
-        super().__init__(values.values())
-        self.__dict__.update(values)
-
-    def keys(self):
-        return self.__dict__.keys()
-
-    def items(self):
-        return self.__dict__.items()
-
-
-def fit(*, code="c0de", inputs=("sieve.csv", PATH), dumps="all", **config):
-    """Return a job of a rule fit, as it would be done now."""
-    config = {"grains": 60, "contact": {"law": "linear", "stiffness": 1e6}} | config
-    return SimpleNamespace(
-        rule=SimpleNamespace(name="fit"),
-        wildcards=Named(sample="sand"),
-        params=Named(code=code, sample=config, bins=20, inputs="/a/clone", keep_dumps=dumps),
-        input=Named(**{f"input{n}": path for n, path in enumerate(inputs)}),
-        output=Named(table="results/sand/fit.csv", result="results/sand/fit.json", record=RECORD),
-    )
-
-
-def walk(seed=1, **config):
-    """Return the job that makes what the fit reads."""
-    folder = f"results/sand/seed_{seed}"
-    return SimpleNamespace(
-        rule=SimpleNamespace(name="walk"),
-        wildcards=Named(sample="sand", seed=str(seed)),
-        params=Named(code="c0de", sample={"grains": 60} | config),
-        input=Named(data="sieve.csv"),
-        output=Named(path=f"{folder}/path.csv", record=f"{folder}/made.json"),
-    )
-
-
-def as_script(made):
-    return SimpleNamespace(**{**vars(made), "rule": made.rule.name, "log": ["logs/fit.log"]})
-
-
-def step(made, text="abd"):
-    """Do the job that makes what the fit reads."""
-    with recorded_job(as_script(made)):
-        Path(made.output.path).parent.mkdir(parents=True, exist_ok=True)
-        Path(made.output.path).write_text(text)
-
-
-def do(made):
-    """Do a job, as its script does."""
-    with recorded_job(as_script(made)) as beside:
-        for path in made.output[:2]:
-            Path(path).parent.mkdir(parents=True, exist_ok=True)
-            Path(path).write_text("abc")
-        Path("results/sand/pairs.dump.gz").write_text("abd")
-        beside.append("results/sand/pairs.dump.gz")
-
-
-def reasons(made):
-    return [case.reason for case in out_of_date([made])]
-
-
-@pytest.fixture(autouse=True)
-def here(tmp_path, monkeypatch):
-    """A study whose one job is done."""
-    monkeypatch.chdir(tmp_path)
-    Path("sieve.csv").write_text("abc")
-    step(walk())
-    do(fit())
-    return tmp_path
+__all__ = ["here"]
 
 
 def test_a_record_tells_what_made_the_files_and_what_they_hold():
@@ -220,113 +156,6 @@ def test_another_version_keeps_what_has_the_same_sources_and_says_what_has_not(m
         "kept: what 2 jobs of branchcrush 0.1.0 made, whose sources are the same in 9.9.9"
     )
     assert reasons(fit(code="new")) == ["its code changed from branchcrush 0.1.0 to 9.9.9"]
-
-
-# --- what a job reads -----------------------------------------------------------------------------
-
-
-def stopped(made, capsys):
-    """Return the one line that a job ends with before it reads anything."""
-    with pytest.raises(SystemExit), recorded_job(as_script(made)):
-        raise AssertionError("it began")
-    said = capsys.readouterr().err
-    assert said.startswith("branchcrush: ") and said.count("\n") == 1
-    assert Path("logs/fit.log").read_text().endswith(said)
-    return said
-
-
-def other(path, **changes):
-    """Change a record as another job would have left it."""
-    record = read_record(path)
-    record.pop("sha256")
-    Path(path).write_bytes(record_bytes({**record, **changes}))
-
-
-def test_a_job_stops_at_a_changed_a_foreign_and_an_unrecorded_input(capsys):
-    path, record = Path(PATH), Path(MADE)
-    kept = record.read_bytes()
-    path.write_text("abe")
-    again = "delete path.csv and run the study again"
-    assert f"{PATH} is not as its job left it (changed, cut or damaged): {again}" in (
-        stopped(fit(), capsys)
-    )
-    path.write_text("abd")
-    record.write_bytes(kept.replace(b"c0de", b"c1de"))
-    assert f"{record} is damaged, and nothing else tells what made path.csv: delete made.json" in (
-        stopped(fit(), capsys)
-    )
-    record.unlink()
-    assert f"{PATH} has no record of what made it: {again}" in stopped(fit(), capsys)
-    record.write_bytes(kept)
-    do(fit())
-
-
-def test_a_job_stops_at_the_files_of_another_seed_with_their_record(capsys):
-    step(walk(2), "another")
-    for name in ("path.csv", "made.json"):
-        Path("results/sand/seed_2", name).replace(Path("results/sand/seed_1", name))
-    line = stopped(fit(), capsys)
-    assert f"{PATH} does not belong here: the record beside it, of sample sand seed 2, " in line
-
-
-def test_a_job_stops_at_a_packing_of_another_configuration(capsys):
-    step(walk(grains=50))
-    line = stopped(fit(), capsys)
-    assert (
-        "seed_1/made.json tells that its files were made with another configuration (grains)"
-        in (line)
-    )
-    # Of another sample it may be another one.
-    other(MADE, wildcards={"sample": "sand-refined", "seed": "1"})
-    do(fit())
-
-
-def test_a_job_stops_at_what_was_made_from_another_file_than_it_reads(capsys):
-    made = fit()
-    made.input = Named(fit="results/sand/fit.json", path=PATH)
-    made.output = Named(
-        table="results/sand/a.csv", result="results/sand/a.json", record="results/sand/made/a.json"
-    )
-    do(made)
-    step(walk(), "abe")
-    line = stopped(made, capsys)
-    assert f"fit.json tells that its files were made from another {PATH} than the one" in line
-
-
-def test_a_job_reads_what_the_disk_changed_without_a_trace(monkeypatch, capsys):
-    """Notes of size and times are the same, as where a bit fell over."""
-    status = os.stat(PATH)
-    Path(PATH).write_text("abe")
-    real = os.stat
-    monkeypatch.setattr(
-        "branchcrush.files.digests.os.stat",
-        lambda path, **how: status if path == PATH else real(path, **how),
-    )
-    assert "path.csv is not as its job left it" in stopped(fit(), capsys)
-
-
-def test_a_dump_that_a_job_reads_is_checked():
-    dump = Path("results/sand/pairs.dump.gz")
-    assert checked_dump(dump, as_script(fit())) == dump
-    dump.write_text("abe")
-    with pytest.raises(ResultsError, match=r"pairs.dump.gz is not as its job left it"):
-        checked_dump(dump, as_script(fit()))
-
-
-def test_many_wrong_inputs_are_one_line(capsys):
-    paths = [walk(seed).output.path for seed in (1, 2, 3)]
-    for seed in (2, 3):
-        step(walk(seed))
-    for path in paths:
-        Path(path).write_text("")
-    assert "(2 more like it)" in stopped(fit(inputs=paths), capsys)
-
-
-def test_the_users_own_files_have_no_record_wherever_they_are(tmp_path):
-    elsewhere = tmp_path / "other/results/sand.csv"
-    elsewhere.parent.mkdir(parents=True)
-    elsewhere.write_text("1 2")
-    do(fit(inputs=["sieve.csv", str(elsewhere)]))
 
 
 def test_what_was_never_done_and_what_has_no_record_is_no_case(here):
