@@ -9,7 +9,15 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
 # How a job reports, and what it notes of itself, does not change what it writes.
-_NO_RESULT = {"jobs", "records", "files.digests", "files.intact", "files.made"}
+_NO_RESULT = {
+    "jobs",
+    "records",
+    "claims",
+    "files.digests",
+    "files.intact",
+    "files.locks",
+    "files.made",
+}
 # A statement that imports. To parse whole files would take half a second of every start of a run.
 _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|.*)|import[ \t]+(.*))", re.MULTILINE

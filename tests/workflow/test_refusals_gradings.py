@@ -118,7 +118,7 @@ def masses(rest):
             "radius, unit: mm, value: 1}}, {weight: 1, grading: {form: radii, basis: number, "
             "size: radius, unit: mm, file: no.csv}}]}",
             [
-                ".components.0.weight = 0: must be a number above 0",
+                ".components.0.weight = 0: must be a number from 1e-15 to 1e+15",
                 ".components.1.grading.file = 'no.csv': there is no such file in ",
             ],
         ),

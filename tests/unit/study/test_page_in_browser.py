@@ -129,7 +129,7 @@ def test_table_is_copied_with_tabs(driver, pages):
     # By hand: a browser copies nothing that no one asked for.
     driver.find_element("css selector", ".copy").click()
     lines = driver.execute_script("return window.copied").split("\n")
-    assert lines[0].startswith("sample\tcertificate\tn\t")
+    assert lines[0].startswith("sample\tcertificate\tn and its interval\t")
     assert lines[1].startswith("loose\tnot certified\tnone\t") and len(lines) == 4
 
 
