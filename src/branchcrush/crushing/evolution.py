@@ -208,6 +208,10 @@ class _Walk:
         """Let C grow along the yield line, or at one load, and add up what that takes."""
         inside = self.line.pieces[(self.line.pieces > self.crushing) & (self.line.pieces < to)]
         for end in [*inside.tolist(), to]:
+            if load is None and end in self.line.halts:
+                self._load_to(float(self.line.strain_at(end)))
+                self.crushing = end
+                continue
             for part in [*self._kinks(end, load), end]:
                 self._integrate(part, load)
 
@@ -219,6 +223,8 @@ class _Walk:
             return
         # The first of the extremes is the end.
         at = np.concatenate([middle + half * _NODES, [to], middle + half * _EXTREMES[1:]])
+        # Rounding would lead over a step of the line.
+        at = np.clip(at, self.crushing, to)
         strain = line.strain_at(at) if load is None else line.strain_under(load, at)
         at_end = float(strain[_NODES.size])
         series = chebyshev.chebfit(_EXTREMES, strain[_NODES.size :], _ORDER)

@@ -5,6 +5,7 @@ A resistance says at which elastic strain the grains of a grading begin to crush
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -16,7 +17,7 @@ from branchcrush.crushing.forms import ModelForm
 
 # Where a yield strain is sought: elastic strains that no contact law is meant to leave.
 _LEAST, LARGEST = 1e-8, 0.5
-_STEPS = 161
+_STEPS, _BETWEEN = 161, 16
 # How far below the resistance, of it, the force may be at a look and above it next to that.
 _NEARLY = 0.05
 _MOST_SEARCHES, _ROUNDING = 100, 4e-16
@@ -147,7 +148,7 @@ class CriticalEnergy:
         """
         crushing = np.asarray(crushing, float)
         at = crushing.reshape(-1)
-        steps = np.geomspace(_LEAST, LARGEST, _STEPS)
+        steps = _steps(elasticity.knots)
 
         def excess(elastic: NDArray, at: NDArray) -> NDArray:
             return self.excess(form.total_strain(elastic, at), at, form, elasticity)
@@ -177,19 +178,38 @@ class CriticalEnergy:
         before: NDArray,
         after: NDArray,
     ) -> None:
-        """Move the ends of the search to where the force is above the resistance within a step."""
-        peak = looks.argmax(axis=1)
-        highest = looks[np.arange(at.size), peak]
-        hidden = np.flatnonzero((highest <= 0.0) & (peak > 0) & (peak < steps.size - 1))
+        """Move the ends of the search to where the force is above the resistance within a step.
+
+        Of a law that passes measured states there may be more than one peak.
+        """
+        inner = looks[:, 1:-1]
+        peaks = (inner >= looks[:, :-2]) & (inner >= looks[:, 2:])
         # Farther below it is no question of where one looks.
-        hidden = hidden[highest[hidden] > -_NEARLY]
-        if hidden.size:
+        hidden = peaks & (inner <= 0.0) & (inner > -_NEARLY)
+        hidden &= ~np.maximum.accumulate(looks[:, 1:-1] > 0.0, axis=1)
+        while (rows := np.flatnonzero(hidden.any(axis=1))).size:
             from scipy.optimize.elementwise import find_minimum  # slow to import
 
-            around = [steps[peak[hidden] + side] for side in (-1, 0, 1)]
-            found = find_minimum(lambda *args: -excess(*args), tuple(around), args=(at[hidden],))
-            before[:, hidden] = around[0], looks[hidden, peak[hidden] - 1]
-            after[:, hidden] = found.x, -found.f_x
+            peak = 1 + hidden[rows].argmax(axis=1)
+            around = [steps[peak + side] for side in (-1, 0, 1)]
+            found = find_minimum(lambda *args: -excess(*args), tuple(around), args=(at[rows],))
+            hidden[rows, peak - 1] = False
+            above = -found.f_x > 0.0
+            rows, peak = rows[above], peak[above]
+            before[:, rows] = steps[peak - 1], looks[rows, peak - 1]
+            after[:, rows] = found.x[above], -found.f_x[above]
+            hidden[rows] = False
+
+
+def _steps(knots: NDArray) -> NDArray:
+    """Return the elastic strains at which the force is looked at, by the knots of the law."""
+    steps = np.geomspace(_LEAST, LARGEST, _STEPS)
+    knots = knots[knots > _LEAST]
+    if knots.size < 2:
+        return steps
+    # Between measured states the force may have a peak each, nearer to each other than a step.
+    inner = [np.geomspace(*ends, _BETWEEN + 1) for ends in pairwise(knots)]
+    return np.union1d(steps, np.concatenate(inner))
 
 
 def _roots(

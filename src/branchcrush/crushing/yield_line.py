@@ -20,6 +20,8 @@ _LOOKS = 17
 _NEAR = 30
 # Each divides by 16 how far the end of the line is known.
 _ROUNDS = 12
+# Halvings after which a step of the line stands out from its slope, and the least one [-].
+_HALVINGS_OF_STEPS, _STEP = 6, 1e-9
 
 
 class YieldLine:
@@ -43,6 +45,10 @@ class YieldLine:
         Total strains at which single C yield, each looked for once.
     whole : bool
         Whether every C of the form yields and sets energy free, up to its last.
+    halts : frozenset of float
+        The C after a step of the line: the one before it halts until the load has risen by it. A
+        law that passes measured states has more than one peak of the driving force, and the first
+        one may no longer reach the resistance.
     """
 
     def __init__(
@@ -71,6 +77,9 @@ class YieldLine:
         end = self._last_admissible()
         if end < self.pieces[-1]:
             self._end_at(end)
+        self.halts: frozenset[float] = frozenset()
+        if elasticity.knots.size > 1:
+            self._look_for_halts()
         self.loads = self.load_at(self.looks)
 
     def under_stress(self) -> "YieldLine":
@@ -85,6 +94,36 @@ class YieldLine:
         pieces = np.union1d(self.pieces, near)
         self.pieces = np.append(pieces[pieces < end], end)
         self._look()
+
+    def _look_for_halts(self) -> None:
+        """Find the steps of the line, between two C that are neighbours as numbers."""
+        low, high = self.looks[:-1], self.looks[1:]
+        at_low, at_high = (self.strain_at(self.looks)[ends] for ends in (np.s_[:-1], np.s_[1:]))
+        least = np.maximum((at_high - at_low) * 1.5 * 0.5**_HALVINGS_OF_STEPS, _STEP)
+        number = 0
+        while low.size:
+            middle = low + (high - low) / 2.0
+            whole = (middle <= low) | (middle >= high)
+            if whole.all():
+                break
+            at = self._strain_at(middle)
+            upper = at_high - at > at - at_low
+            low, at_low = np.where(upper, middle, low), np.where(upper, at, at_low)
+            high, at_high = np.where(upper, high, middle), np.where(upper, at_high, at)
+            number += 1
+            if number >= _HALVINGS_OF_STEPS:
+                steps = at_high - at_low > least
+                low, high, least = low[steps], high[steps], least[steps]
+                at_low, at_high = at_low[steps], at_high[steps]
+        self.halts = frozenset(high.tolist())
+        if self.halts:
+            # Before a step the line is as steep as a root is.
+            near = (low[:, None] * (1.0 - 0.5 ** np.arange(1, _NEAR + 1))).ravel()
+            end = self.pieces[-1]
+            self.pieces = np.union1d(self.pieces, np.concatenate([near, low, high]))
+            self.pieces = self.pieces[self.pieces <= end]
+            self._look()
+            self.looks = np.unique(self.looks)
 
     def _look(self) -> None:
         inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
