@@ -112,6 +112,28 @@ def below_results(path: str, wildcards: Mapping[str, Any]) -> tuple[str, str]:
     return "/".join(parts[:at]), "/".join(parts[at:])
 
 
+def below_folder(path: str, folder: str) -> str:
+    """Return where a file lies below the folder of the results, "" of the user's own.
+
+    Parameters
+    ----------
+    path : str
+        Of an input that a record tells of.
+    folder : str
+        From `below_results`; "" where the record does not tell it.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> below_folder("results/sand/fit.csv", "results"), below_folder("/data/sieve.csv", "")
+    ('sand/fit.csv', '')
+    """
+    return path.removeprefix(f"{folder}/") if folder and path.startswith(f"{folder}/") else ""
+
+
 def is_record(below: str) -> bool:
     """Return whether a file below the results is a record, by its name.
 
