@@ -4,6 +4,7 @@ import contextlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
+from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,6 +20,8 @@ from branchcrush.jobs import job
 # `code` tells what is in them), and which dumps are kept.
 _NOT_COMPARED = ("code", "inputs", "template", "templates", "glossary", "keep_dumps")
 _MOST_NAMED = 3
+# Of the grains in each saved state.
+_DUMP = "particles.dump.gz"
 # From the least.
 KEPT_DUMPS = ("none", "last", "all")
 
@@ -60,29 +63,33 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
             file.write(record_bytes(record))
 
 
-def checked_dump(path: Path, snakemake: Any) -> Path:
-    """Return the path of a dump that a job reads, which is none of its inputs since it may go.
+def kept_dump(beside: str | PathLike[str], snakemake: Any) -> list[Path]:
+    """Return the dump of the grains of a packing, which is no input of a job since it may go.
 
     Parameters
     ----------
-    path : Path
-        Of a file that is there.
+    beside : path-like
+        A file of the same packing.
     snakemake : object
         What Snakemake gives a script.
 
     Returns
     -------
-    Path
+    list of Path
+        Empty where it is not there.
 
     Raises
     ------
     ResultsError
         When it is not as the job that wrote it left it.
     """
+    path = Path(beside).with_name(_DUMP)
+    if not path.exists():
+        return []
     wildcards = dict(snakemake.wildcards.items())
     folder, _ = below_results(snakemake.output.record, wildcards)
     refuse([Records(folder).fault(path.relative_to(folder).as_posix(), file_digest(path))])
-    return path
+    return [path]
 
 
 def _made_with(made: Any, rule: str) -> dict[str, Any]:

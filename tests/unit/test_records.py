@@ -49,7 +49,7 @@ def test_a_record_tells_what_made_the_files_and_what_they_hold():
         },
         "inputs": {"sieve.csv": abc, PATH: abd},
         "outputs": {"results/sand/fit.csv": abc, "results/sand/fit.json": abc},
-        "beside": {"results/sand/pairs.dump.gz": abd},
+        "beside": {"results/sand/particles.dump.gz": abd},
     }
 
 
@@ -172,7 +172,7 @@ def test_half_of_what_an_interrupted_job_leaves_is_made_anew():
 
 
 def test_a_dump_may_go():
-    Path("results/sand/pairs.dump.gz").unlink()
+    Path("results/sand/particles.dump.gz").unlink()
     assert reasons(fit()) == []
 
 

@@ -40,7 +40,7 @@ def test_a_copy_less_deep_of_a_study_with_absolute_paths_is_sound(here):
         pass
     with tempfile.TemporaryDirectory() as folder:
         copy = shutil.copytree("results", Path(folder, "results"))
-        Path(copy, "sand/pairs.dump.gz").unlink()
+        Path(copy, "sand/particles.dump.gz").unlink()
         assert verify(copy).faults == []
         data.write_text("abe")
         (line,) = verify(copy).faults
