@@ -159,11 +159,9 @@ def _entities(
         )  # fmt: skip
     software = provenance.get("software", {})
     for name, version in software.items():
-        yield (
-            f"#{name}",
-            {"@type": "SoftwareApplication", "name": name, "softwareVersion": version,
-             "url": _ADDRESSES[name]},
-        )  # fmt: skip
+        entity = {"@type": "SoftwareApplication", "name": name, "softwareVersion": version}
+        # Another version may have noted what this one does not.
+        yield f"#{name}", entity | ({"url": _ADDRESSES[name]} if name in _ADDRESSES else {})
     yield (
         "#branchcrush",
         {

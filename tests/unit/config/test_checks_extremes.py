@@ -70,13 +70,13 @@ def test_a_file_larger_than_any_table_is_refused_before_it_is_read(folder, monke
     monkeypatch.setattr(decoding, "_LARGEST", 1000)
     section = of_file("sieve", "1,0\n" + "2,50\n" * 300 + "3,100\n", folder)
     (line,) = lines_of(study_of(grading=section, allow_unrepresentative=True))
-    assert "and a table may have" in line
+    assert "has more than the 0.001 MB that a table may have: write it with fewer" in line
 
 
 def test_a_configuration_larger_than_any_study_is_refused_before_it_is_parsed(tmp_path):
     path = tmp_path / "config.yaml"
     path.write_text("samples: [" + "1, " * 1_000_000 + "1]\n")
-    assert "has 3.0 MB, and may have 0.5 MB" in config_file_problem(path)
+    assert "has more than the 0.5 MB that it may have: put lists" in config_file_problem(path)
 
 
 @pytest.mark.parametrize("section", ["samples", "measured"])
