@@ -93,6 +93,13 @@ class GradingValues:
         return table.sizes * self.to_radius, table.values, cut
 
 
+def _listed(values: GradingValues) -> Grading:
+    radii = read_radii(values["file"]) * values.to_radius
+    # Of another code, or of another unit: one size but for rounding, which has no range of sizes.
+    alike = radii[-1] - radii[0] <= _SAME * radii[-1]
+    return from_radii(np.full(radii.shape, radii[0]) if alike else radii)
+
+
 def _sieve(values: GradingValues) -> Grading:
     radius, percent, cut = values.table(read_sieve_table)
     return from_percent_finer(radius, percent, *cut)
@@ -134,7 +141,7 @@ FORMS: dict[str, Callable[[GradingValues], Grading]] = {
     "sieve": _sieve,
     "density": _density,
     "histogram": _histogram,
-    "radii": lambda values: from_radii(read_radii(values["file"]) * values.to_radius),
+    "radii": _listed,
     "mixture": _mixture,
 }
 

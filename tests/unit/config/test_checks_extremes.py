@@ -1,11 +1,13 @@
 """Sizes, lines, files and names that no powder has: one short message each, at once."""
 
+import numpy as np
 import pytest
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study
 from branchcrush.config.file import config_file_problem
 from branchcrush.files import decoding
+from branchcrush.samples.grading import grading_results
 from tests.unit.config.studies import SAMPLE, SIEVE, UNIFORM, lines_of, study_of
 
 TABLES = {
@@ -36,6 +38,17 @@ def test_sizes_that_differ_by_rounding_are_refused(folder, form):
     section = of_file(form, TABLES[form].format(*sizes), folder)
     (line,) = lines_of(study_of(grading=section, allow_unrepresentative=True))
     assert "1 and 1.0000000000000002 are one size but for rounding: remove one" in line
+
+
+def test_a_list_of_grains_that_differ_by_rounding_alone_is_of_one_size(folder):
+    alike = grading_of(of_file("radii", "1.0\n" * 60 + "1.0000000000000002\n", folder))
+    (radius,), (share,) = alike.discrete_part
+    assert share == 1.0
+    # What a job does with it.
+    grading_results(alike, 61, 0.7, [np.full(61, radius)], ultimate_alpha=2.6)
+    # Beside another size they are as they were written.
+    three = grading_of(of_file("radii", "1.0\n1.0000000000000002\n2\n", folder))
+    assert len(three.discrete_part[0]) == 3
 
 
 def test_a_density_has_any_scale(folder):
