@@ -11,12 +11,10 @@ from branchcrush.errors import FitError
 from branchcrush.files.made import read_record
 from branchcrush.records import (
     OutOfDate,
-    dumps_not_kept,
-    kept_of_other_versions,
-    lines_of,
     out_of_date,
     recorded_job,
 )
+from branchcrush.records_words import dumps_not_kept, kept_of_other_versions, lines_of
 from tests.unit.recorded_jobs import (
     PATH,
     RECORD,
@@ -147,7 +145,8 @@ def test_a_record_without_the_digest_of_itself_is_damaged():
 
 def test_another_version_keeps_what_has_the_same_sources_and_says_what_has_not(monkeypatch):
     assert kept_of_other_versions([fit(), walk()]) == ""
-    monkeypatch.setattr("branchcrush.records.__version__", "9.9.9")
+    for module in ("records", "records_words"):
+        monkeypatch.setattr(f"branchcrush.{module}.__version__", "9.9.9")
     assert reasons(fit()) == []
     assert kept_of_other_versions([fit(), walk()]) == (
         "kept: what 2 jobs of branchcrush 0.1.0 made, whose sources are the same in 9.9.9"

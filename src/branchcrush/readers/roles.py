@@ -10,6 +10,7 @@ from branchcrush.errors import ReadingError
 from branchcrush.readers.frames import ColumnFrame
 from branchcrush.readers.limits import FURTHEST, LARGEST_ID, LARGEST_NUMBER, size_problem
 from branchcrush.readers.texts import listed
+from branchcrush.words import few
 
 # How many columns make each, and what each is in the words of an error.
 CONTACT_ROLES = {
@@ -177,5 +178,4 @@ def some(numbers: Sequence[float] | NDArray) -> str:
     >>> some([1, 2, 3, 4, 5, 6, 7])
     '1, 2, 3, 4, 5 and 2 more'
     """
-    shown = ", ".join(f"{number:.0f}" for number in numbers[:5])
-    return shown + (f" and {len(numbers) - 5} more" if len(numbers) > 5 else "")
+    return few((f"{number:.0f}" for number in numbers), most=5)

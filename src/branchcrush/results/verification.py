@@ -1,7 +1,7 @@
 """Whether every file of a study is what its job left, and all belong together."""
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,13 +14,13 @@ from branchcrush.files.intact import Records, again, disagreements
 from branchcrush.files.made import below_folder, below_results, is_record
 from branchcrush.files.tables import read_json
 from branchcrush.results.package import folder_of_results
+from branchcrush.words import few
 
 _PACKAGE = "datapackage.json"
 # What `results.crate` writes beside.
 CRATE = "ro-crate-metadata.json"
 # What it makes is asked for by hand, and has no record.
 _PREVIEW = "preview"
-_MOST_NAMED = 3
 
 
 class Verification(NamedTuple):
@@ -205,14 +205,14 @@ class _Study:
         known = {*listed, _PACKAGE}
         left = [file for file in self.there if listed and file in outputs and file not in known]
         if left:
-            notes.append(f"of samples or seeds that the study no longer has: {_few(left)}")
+            notes.append(f"of samples or seeds that the study no longer has: {few(left)}")
         others = [
             file
             for file in self.there
             if not (file in told or file == CRATE or is_record(file)) and _is_result(file) is None
         ]
         if others:
-            notes.append(f"no results of this study: {_few(others)}")
+            notes.append(f"no results of this study: {few(others)}")
         return notes
 
 
@@ -259,9 +259,3 @@ def _digest(file: Path) -> str:
 def _words(record: dict[str, Any]) -> str:
     words = " ".join(f"{name} {value}" for name, value in record["wildcards"].items())
     return f"rule {record['rule']}{' of ' if words else ''}{words}"
-
-
-def _few(names: Iterable[str]) -> str:
-    named = list(names)
-    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
-    return ", ".join(named[:_MOST_NAMED]) + more
