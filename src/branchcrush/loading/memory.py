@@ -63,6 +63,30 @@ def expected_reading_memory(grains: float, states: int, packings: int) -> float:
     return _READING_BASE + _READ_CONTACT * _CONTACTS_PER_GRAIN * grains * states_held
 
 
+def at_a_time(packings: int, ranks: int, cores: int) -> tuple[int, int]:
+    """Return how many packings are at work at a time, and on how many cores each.
+
+    Parameters
+    ----------
+    packings : int
+    ranks : int
+        MPI processes that are to share a packing.
+    cores : int
+        That all share.
+
+    Returns
+    -------
+    jobs, ranks : int
+
+    Examples
+    --------
+    >>> at_a_time(5, 2, 7), at_a_time(2, 1, 7), at_a_time(5, 8, 2)
+    ((3, 2), (2, 1), (1, 2))
+    """
+    ranks = min(ranks, cores)
+    return min(cores // ranks, packings), ranks
+
+
 def is_too_much(need: float, total: float) -> bool:
     """Return whether a job needs clearly more memory than a machine has.
 
