@@ -111,6 +111,7 @@ def derived(alone, thousand, single, grouped, study, times):
             seconds=_of_packing(thousand) * times**_GROWTH + of_grouped - of_alone,
             megabytes=thousand["megabytes"] / thousand["packings"] * times,
             files=grouped["files"] / grouped["packings"],
+            inodes=grouped["inodes"] / grouped["packings"],
             requests=sum(grouped["requests"].values()) / grouped["packings"],
             requests_of_job=sum(single["requests"].values()) / single["jobs"],
         ),
@@ -118,15 +119,25 @@ def derived(alone, thousand, single, grouped, study, times):
 
 
 def expected(
-    packings, seconds, megabytes, files, requests, requests_of_job, nodes=4, cores=32, minutes=20
+    packings,
+    seconds,
+    megabytes,
+    files,
+    inodes,
+    requests,
+    requests_of_job,
+    nodes=4,
+    cores=32,
+    minutes=20,
 ):
     """Return what a study takes of a cluster, from what one packing takes.
 
     Parameters
     ----------
     packings : int
-    seconds, megabytes, files, requests : float
-        Of a core, of the disk, how many files, and of the controller, for each packing.
+    seconds, megabytes, files, inodes, requests : float
+        Of a core, of the disk, how many files, and with their folders, and of the controller, for
+        each packing.
     requests_of_job : float
         Of the controller, for each job besides.
     nodes, cores : int
@@ -138,11 +149,11 @@ def expected(
     -------
     dict
         `group`, packings of a job; `jobs`; `core_hours`; `hours`, on all nodes; `gigabytes`;
-        `files`; `requests`, of the controller, and `requests_a_minute`.
+        `files`; `inodes`; `requests`, of the controller, and `requests_a_minute`.
 
     Examples
     --------
-    >>> expected(1000, 300.0, 40.0, 20.0, 5.0, 10.0, nodes=2, cores=10)["group"]
+    >>> expected(1000, 300.0, 40.0, 20.0, 23.0, 5.0, 10.0, nodes=2, cores=10)["group"]
     4
     """
     group = math.ceil(60.0 * minutes / seconds)
@@ -158,6 +169,7 @@ def expected(
         "hours": hours,
         "gigabytes": packings * megabytes / 1000.0,
         "files": round(packings * files),
+        "inodes": round(packings * inodes),
         "requests": round(requests),
         "requests_a_minute": requests / (60.0 * hours),
     }

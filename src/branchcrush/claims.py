@@ -14,7 +14,7 @@ from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
-from branchcrush.files.locks import locked
+from branchcrush.files.locks import is_locked, locked
 
 CLAIMS = Path(".branchcrush", "claims")
 # Jobs of a cluster are told by their number: what the scheduler sets, and what it is called.
@@ -81,9 +81,8 @@ def standing_claims() -> list[Claim]:
     """
     claims = []
     for path in sorted(CLAIMS.glob("*")):
-        lock, free = locked(path, shared=True)
-        os.close(lock)
-        if not free and (claim := _read(path)):
+        # Not of one that is about to be written: who writes it would find it locked.
+        if _read(path) and is_locked(path) and (claim := _read(path)):
             claims.append(claim)
     return claims
 

@@ -3,7 +3,8 @@
 import contextlib
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
+from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,13 +15,13 @@ from branchcrush.files.intact import Records, check_inputs, refuse
 from branchcrush.files.made import below_results, read_record, record_bytes
 from branchcrush.files.replacing import replacing
 from branchcrush.jobs import job
+from branchcrush.words import few
 
 # Params of a rule that do not decide what its results hold: where its sources lie (the digest in
 # `code` tells what is in them), and which dumps are kept.
 _NOT_COMPARED = ("code", "inputs", "template", "templates", "glossary", "keep_dumps")
-_MOST_NAMED = 3
-# From the least.
-KEPT_DUMPS = ("none", "last", "all")
+# Of the grains in each saved state.
+_DUMP = "particles.dump.gz"
 
 
 @contextlib.contextmanager
@@ -60,29 +61,33 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
             file.write(record_bytes(record))
 
 
-def checked_dump(path: Path, snakemake: Any) -> Path:
-    """Return the path of a dump that a job reads, which is none of its inputs since it may go.
+def kept_dump(beside: str | PathLike[str], snakemake: Any) -> list[Path]:
+    """Return the dump of the grains of a packing, which is no input of a job since it may go.
 
     Parameters
     ----------
-    path : Path
-        Of a file that is there.
+    beside : path-like
+        A file of the same packing.
     snakemake : object
         What Snakemake gives a script.
 
     Returns
     -------
-    Path
+    list of Path
+        Empty where it is not there.
 
     Raises
     ------
     ResultsError
         When it is not as the job that wrote it left it.
     """
+    path = Path(beside).with_name(_DUMP)
+    if not path.exists():
+        return []
     wildcards = dict(snakemake.wildcards.items())
     folder, _ = below_results(snakemake.output.record, wildcards)
     refuse([Records(folder).fault(path.relative_to(folder).as_posix(), file_digest(path))])
-    return path
+    return [path]
 
 
 def _made_with(made: Any, rule: str) -> dict[str, Any]:
@@ -176,8 +181,7 @@ def _as_text(params):
 def _changed_keys(before, now):
     """Return in words which keys of the configuration changed."""
     keys = list(dict.fromkeys(key.removeprefix("sample.") for key in _differences(before, now)))
-    more = f" and {len(keys) - _MOST_NAMED} more" if len(keys) > _MOST_NAMED else ""
-    return f"{', '.join(keys[:_MOST_NAMED]) or 'the order of its keys'}{more} changed"
+    return f"{few(keys) or 'the order of its keys'} changed"
 
 
 def _differences(before, now, key=""):
@@ -210,100 +214,3 @@ def _changed_inputs(before, now):
 
 def _name(path):
     return os.path.basename(path)
-
-
-def lines_of(cases: Iterable[OutOfDate]) -> list[str]:
-    """Return what is made anew, a line for each reason.
-
-    Parameters
-    ----------
-    cases : iterable of OutOfDate
-
-    Returns
-    -------
-    list of str
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace as Namespace
-    >>> fit = Namespace(rule=Namespace(name="fit"), wildcards={"sample": "paper"})
-    >>> lines_of([OutOfDate(fit, "its code changed")])
-    ['made anew: fit of paper, because its code changed']
-    """
-    grouped: dict[str, dict[str, int]] = {}
-    for case in cases:
-        wildcards = dict(case.job.wildcards.items())
-        what = case.job.rule.name
-        if "sample" in wildcards:
-            what += f" of {wildcards['sample']}"
-        names = grouped.setdefault(case.reason, {})
-        names[what] = names.get(what, 0) + ("seed" in wildcards)
-    return [
-        f"made anew: {_listed(_counted(names))}, because {reason}"
-        for reason, names in grouped.items()
-    ]
-
-
-def _counted(names: Mapping[str, int]) -> list[str]:
-    """Return names with the number of packings that each stands for."""
-    return [
-        f"{name} ({number} packing{'s' * (number > 1)})" if number else name
-        for name, number in names.items()
-    ]
-
-
-def _listed(names):
-    """Return the first of some names, and how many more there are."""
-    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
-    return ", ".join(names[:_MOST_NAMED]) + more
-
-
-def kept_of_other_versions(jobs: Iterable[Any]) -> str:
-    """Return how many results another version made that this one keeps, and why, or "".
-
-    Parameters
-    ----------
-    jobs : iterable
-        As for `out_of_date`, of those that will not be done.
-
-    Returns
-    -------
-    str
-    """
-    records = (read_record(each.output.record) for each in jobs)
-    versions = [record["branchcrush"] for record in records if record]
-    others = sorted({version for version in versions if version != __version__})
-    if not others:
-        return ""
-    number = sum(version != __version__ for version in versions)
-    return (
-        f"kept: what {number} job{'s' * (number > 1)} of branchcrush {', '.join(others)} made, "
-        f"whose sources are the same in {__version__}"
-    )
-
-
-def dumps_not_kept(jobs: Iterable[Any]) -> str:
-    """Return what to do where dumps are asked for that earlier runs did not keep, or "".
-
-    Parameters
-    ----------
-    jobs : iterable
-        As for `out_of_date`, of those that will not be done.
-
-    Returns
-    -------
-    str
-    """
-    short = []
-    for each in jobs:
-        wanted = dict(each.params.items()).get("keep_dumps")
-        kept = (read_record(each.output.record) or {}).get("keep_dumps") if wanted else None
-        if kept in KEPT_DUMPS and KEPT_DUMPS.index(kept) < KEPT_DUMPS.index(wanted):
-            short.append((each.rule.name, wanted))
-    if not short:
-        return ""
-    number, (rule, wanted) = len(short), short[0]
-    return (
-        f"keep_dumps: {wanted} holds for packings that are still to be compressed; {number} "
-        f"packing{'s' * (number > 1)} kept less. To have their dumps: --forcerun {rule}"
-    )

@@ -12,6 +12,7 @@ _PACKAGE = Path(__file__).parent
 _NO_RESULT = {
     "jobs",
     "records",
+    "records_words",
     "claims",
     "files.digests",
     "files.intact",

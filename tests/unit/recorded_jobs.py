@@ -66,8 +66,8 @@ def do(made):
         for path in made.output[:2]:
             Path(path).parent.mkdir(parents=True, exist_ok=True)
             Path(path).write_text("abc")
-        Path("results/sand/pairs.dump.gz").write_text("abd")
-        beside.append("results/sand/pairs.dump.gz")
+        Path("results/sand/particles.dump.gz").write_text("abd")
+        beside.append("results/sand/particles.dump.gz")
 
 
 def reasons(made):

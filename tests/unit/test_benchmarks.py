@@ -117,11 +117,11 @@ def test_a_state_of_a_small_packing_from_placement_on():
 
 
 def test_a_large_study_on_a_cluster_by_hand():
-    found = cluster.expected(1000, 300.0, 40.0, 20.0, 5.0, 10.0, nodes=2, cores=10)
+    found = cluster.expected(1000, 300.0, 40.0, 20.0, 23.0, 5.0, 10.0, nodes=2, cores=10)
     # Four of five minutes make twenty; 250 such jobs on 20 cores are 13 waves.
     assert (found["group"], found["jobs"]) == (4, 250)
     assert found["hours"] == pytest.approx(13 * 20 / 60)
     assert found["core_hours"] == pytest.approx(1000 / 12)
-    assert (found["gigabytes"], found["files"]) == (40.0, 20_000)
+    assert (found["gigabytes"], found["files"], found["inodes"]) == (40.0, 20_000, 23_000)
     # Five a packing and ten a job, and a look at the queue every three minutes.
     assert found["requests_a_minute"] == pytest.approx((5000 + 2500 + 13 * 20 / 3) / (13 * 20))

@@ -1,6 +1,8 @@
 """Who makes which result: claims that go with the process that holds them."""
 
 import contextlib
+import errno
+import fcntl
 import os
 import signal
 import subprocess
@@ -9,7 +11,9 @@ import time
 
 import pytest
 
+from branchcrush import claims
 from branchcrush.claims import CLAIMS, claimed, standing_claims
+from branchcrush.files import locks
 
 RESULT = "results/sand/seed_1/made.json"
 HOLD = f"""\
@@ -86,3 +90,31 @@ def test_who_comes_second_waits_until_the_first_has_ended():
 def test_other_results_are_free():
     with holder(), claimed("results/sand/seed_2/made.json"):
         assert len(standing_claims()) == 2
+
+
+def test_to_ask_for_claims_makes_no_file_and_keeps_nobody_from_a_claim_that_is_begun(monkeypatch):
+    CLAIMS.mkdir(parents=True)
+    begun = CLAIMS / "begun"
+    begun.touch()
+    taken = []
+    flock = fcntl.flock
+    monkeypatch.setattr(fcntl, "flock", lambda *how: (taken.append(how), flock(*how)))
+    assert standing_claims() == [] and taken == []
+    # One that ends between the listing of the folder and the look at it.
+    monkeypatch.setattr(type(CLAIMS), "glob", lambda *_: [CLAIMS / "ended"])
+    monkeypatch.setattr(claims, "_read", lambda path: claims.Claim("a", "b", 1, "", "now"))
+    assert standing_claims() == []
+    assert list(CLAIMS.iterdir()) == [begun]
+
+
+def test_a_file_system_without_locks_is_told_of_once_in_a_process(monkeypatch, capfd):
+    def refused(*_):
+        raise OSError(errno.ENOLCK, "no locks")
+
+    monkeypatch.setattr(fcntl, "flock", refused)
+    locks._tell_of_no_locks.cache_clear()
+    for name in ("first", "second"):
+        with claimed(f"results/{name}.json"):
+            assert standing_claims() == []
+    said = capfd.readouterr().err
+    assert said.count("without locks") == 1 and said.count("\n") == 1

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import tomllib
 from pathlib import Path
 
@@ -131,3 +132,46 @@ def test_cleaning_removes_a_link_and_not_what_it_leads_to(make, tmp_path):
     make("clean")
     assert not (tmp_path / ".venv").is_symlink()
     assert (theirs / "something").exists()
+
+
+FAKE = """#!/usr/bin/env bash
+echo "{name} user=$EUID python=${{PYTHON-}} cores=${{CORES-}}" \
+  "bytecode=${{PYTHONDONTWRITEBYTECODE-}} $*" >>"$CALLS"
+"""
+# It hands no environment on, as sudo does not.
+SUDO = """#!/usr/bin/env bash
+shift
+exec env -i CALLS="$CALLS" PATH=/usr/bin:/bin "$@"
+"""
+
+
+def test_a_users_environment_is_made_by_the_user_and_root_only_runs_the_tests_of_the_cluster():
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        for part in (".ci", ".venv/bin", "bin"):
+            (folder / part).mkdir(parents=True)
+        shutil.copy(REPOSITORY / ".ci/run", folder / ".ci")
+        there = ("make", "python3.99", "chromium", "chromedriver", "slurmctld", "munged")
+        fakes = {f"bin/{name}": FAKE.format(name=name) for name in there}
+        fakes |= {"bin/sudo": SUDO, ".venv/bin/pytest": FAKE.format(name="pytest")}
+        for path, text in fakes.items():
+            (folder / path).write_text(text)
+        for path in (folder, *folder.rglob("*")):
+            path.chmod(0o777)
+        calls = folder / "calls"
+        environment = {"PATH": f"{folder}/bin:/usr/bin:/bin", "CALLS": str(calls)}
+        subprocess.run(
+            [folder / ".ci/run"],
+            env=environment | {"PYTHON": "python3.99", "CORES": "3"},
+            user=65534 if os.geteuid() == 0 else None,
+            capture_output=True,
+            timeout=60,
+            check=True,
+        )
+        told = calls.read_text().splitlines()
+    called = [line.split() for line in told if not line.startswith("python3.99")]
+    first, second, last = called
+    assert [first[0], first[2:4], first[-1]] == ["make", ["python=python3.99", "cores=3"], "test"]
+    assert [second[0], second[2:4], second[-1]] == ["make", first[2:4], "slurm"]
+    assert [last[0], last[4]] == ["pytest", "bytecode=1"]
+    assert last[5:] == ["-p", "no:cacheprovider", "tests/cluster"]

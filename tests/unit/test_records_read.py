@@ -7,7 +7,7 @@ import pytest
 
 from branchcrush.errors import ResultsError
 from branchcrush.files.made import read_record, record_bytes
-from branchcrush.records import checked_dump, recorded_job
+from branchcrush.records import kept_dump, recorded_job
 from tests.unit.recorded_jobs import MADE, PATH, Named, as_script, do, fit, here, step, walk
 
 __all__ = ["here"]
@@ -93,12 +93,14 @@ def test_a_job_reads_what_the_disk_changed_without_a_trace(monkeypatch, capsys):
     assert "path.csv is not as its job left it" in stopped(fit(), capsys)
 
 
-def test_a_dump_that_a_job_reads_is_checked():
-    dump = Path("results/sand/pairs.dump.gz")
-    assert checked_dump(dump, as_script(fit())) == dump
+def test_a_dump_that_a_job_reads_is_checked_and_may_have_been_deleted():
+    dump, beside = Path("results/sand/particles.dump.gz"), "results/sand/fit.csv"
+    assert kept_dump(beside, as_script(fit())) == [dump]
     dump.write_text("abe")
-    with pytest.raises(ResultsError, match=r"pairs.dump.gz is not as its job left it"):
-        checked_dump(dump, as_script(fit()))
+    with pytest.raises(ResultsError, match=r"particles.dump.gz is not as its job left it"):
+        kept_dump(beside, as_script(fit()))
+    dump.unlink()
+    assert kept_dump(beside, as_script(fit())) == []
 
 
 def test_many_wrong_inputs_are_one_line(capsys):

@@ -10,6 +10,7 @@ from rocrate.rocrate import ROCrate
 
 from branchcrush.command.main import main
 from branchcrush.files.digests import file_digest
+from branchcrush.results.crate import _ADDRESSES
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +82,7 @@ def test_a_study_that_is_damaged_or_unfinished_is_not_described(crate, tmp_path,
 
 
 def test_it_is_a_crate_by_the_standard(crate, entities):
-    """What version 1.1 and the profile Process Run Crate ask for, as their validator does."""
+    """Some of what version 1.1 and the profile Process Run Crate ask for."""
     descriptor, root = entities["ro-crate-metadata.json"], entities["./"]
     assert descriptor["about"] == {"@id": "./"}
     assert descriptor["conformsTo"] == {"@id": "https://w3id.org/ro/crate/1.1"}
@@ -105,3 +106,12 @@ def test_no_licence_is_told_as_none(crate, tmp_path):
     graph = json.loads((tmp_path / "results/ro-crate-metadata.json").read_text())["@graph"]
     root = next(entity for entity in graph if entity["@id"] == "./")
     assert root["license"].startswith("No licence is stated")
+
+
+def test_software_whose_address_is_not_known_has_none(crate, tmp_path, monkeypatch):
+    monkeypatch.delitem(_ADDRESSES, "numpy")
+    shutil.copytree(crate, tmp_path / "results")
+    assert main(["export", str(tmp_path), "--crate"]) == 0
+    graph = json.loads((tmp_path / "results/ro-crate-metadata.json").read_text())["@graph"]
+    (numpy,) = (entity for entity in graph if entity["@id"] == "#numpy")
+    assert numpy["softwareVersion"] and "url" not in numpy

@@ -79,3 +79,25 @@ def test_what_a_job_left_unfinished_is_made_anew_with_the_profile_and_without(fi
             assert again in text and finished_seed not in text.split("input:")[0]
     finally:
         mark.unlink()
+
+
+def test_what_reads_all_packings_asks_for_more_memory_where_they_are_large(study):
+    sample = "\n".join(
+        [
+            "samples:",
+            "  large:",
+            "    grading: {form: single, size: radius, unit: mm, value: 1.0}",
+            "    loading: {edge_reduction: 0.4, states: 15}",
+            "    grains: 100000",
+            "    seeds: 40",
+            "    refined_seeds: 0",
+        ]
+    )
+    study.configure(sample + "\n")
+    arguments = ("--dry-run", "--workflow-profile", "none")
+    run = study.snakemake(*arguments, "results/large/sharing.json")
+    text = run.stdout + run.stderr
+    assert run.returncode == 0, text
+    # 150 MB, and 150 bytes of 3 contacts a grain in 17 states of one and two of all; half more.
+    (job,) = (part for part in text.split("\n\n") if "rule sharing:" in part)
+    assert "mem_mb=6800," in job

@@ -33,6 +33,8 @@ rule branch_lengths:
         "logs/{sample}/branch_lengths.log",
     conda:
         "../envs/branchcrush.yaml"
+    resources:
+        mem_mb=asked_to_read(),
     params:
         code=code("branch_lengths"),
         sample=section("grading"),

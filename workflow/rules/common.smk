@@ -9,7 +9,7 @@ from branchcrush.config.packing_files import frame_files
 from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.files.dictionary import dictionary_digest
 from branchcrush.source_files import source_digest
-from branchcrush.study.cost import packing_request
+from branchcrush.study.cost import packing_request, reading_request
 
 # Of this project: a workflow that uses it as a module has another basedir.
 ROOT = Path(workflow.current_basedir).parents[1]
@@ -52,18 +52,23 @@ def section(*keys):
 
 
 @cache
-def request_of(sample, crushed, attempt):
-    """Return what the job of a packing asks a cluster for; all packings of a sample are alike."""
+def request_of(sample, ask, crushed, attempt):
+    """Return what a job of a sample asks a cluster for; all of its packings are alike."""
     settings = {**SAMPLES, **REFINED_SAMPLES}[sample]
     breakage = breakage_of(settings["breakage"]) if crushed else None
-    return packing_request(sample_of(settings), breakage, attempt)
+    return ask(None if sample in READ else sample_of(settings), breakage, attempt)
 
 
-def asked(resource, crushed=False):
+def asked(resource, crushed=False, ask=packing_request):
     """Return a resources function: mem_mb or runtime that a packing asks a cluster for."""
     return lambda wildcards, attempt: getattr(
-        request_of(wildcards.sample, crushed, attempt), resource
+        request_of(wildcards.sample, ask, crushed, attempt), resource
     )
+
+
+def asked_to_read(crushed=False):
+    """Return a resources function: mem_mb to read the contacts of all packings of a sample."""
+    return asked("mem_mb", crushed, reading_request)
 
 
 def data_files(wildcards):

@@ -28,6 +28,8 @@ rule crushed_grains:
         "logs/{sample}/crushed_grains.log",
     conda:
         "../envs/branchcrush.yaml"
+    resources:
+        mem_mb=asked_to_read(crushed=True),
     params:
         code=code("crushed_grains"),
         sample=section("breakage", "seeds"),

@@ -25,6 +25,8 @@ rule crushing_results:
         "logs/{sample}/crushing_results.log",
     conda:
         "../envs/branchcrush.yaml"
+    resources:
+        mem_mb=asked_to_read(crushed=True),
     params:
         code=code("crushing_results"),
         sample=section("contact", "breakage", "seeds"),

@@ -20,6 +20,8 @@ rule energy_split:
     priority: 1
     conda:
         "../envs/branchcrush.yaml"
+    resources:
+        mem_mb=asked_to_read(),
     params:
         code=code("energy_split"),
         sample=section("grading", "seeds"),

@@ -11,12 +11,8 @@ from snakemake.io import remove_flag
 from snakemake.logging import logger
 from snakemake.settings.types import RerunTrigger
 
-from branchcrush.records import (
-    dumps_not_kept,
-    kept_of_other_versions,
-    lines_of,
-    out_of_date,
-)
+from branchcrush.records import out_of_date
+from branchcrush.records_words import dumps_not_kept, kept_of_other_versions, lines_of
 
 
 # Of the inputs of all rules that follow: their times decide nothing.

@@ -30,6 +30,8 @@ rule sharing:
         "logs/{sample}/sharing.log",
     conda:
         "../envs/branchcrush.yaml"
+    resources:
+        mem_mb=asked_to_read(),
     params:
         code=code("sharing"),
         sample=section("grading", "contact"),

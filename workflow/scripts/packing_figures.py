@@ -1,6 +1,6 @@
 """Draw the packings of a sample: grading, two states, certificate, and who touches and carries."""
 
-from pathlib import Path
+from itertools import chain
 
 from branchcrush.config.build import grading_of
 from branchcrush.files.tables import provenance, read_json, read_packing, read_table, write_json
@@ -8,7 +8,7 @@ from branchcrush.lammps.files import read_dump
 from branchcrush.packings.contact_laws import contact_law
 from branchcrush.plotting import network_figures as networks
 from branchcrush.plotting import packing_figures as figures
-from branchcrush.records import checked_dump, recorded_job
+from branchcrush.records import kept_dump, recorded_job
 from branchcrush.study.viewer_states import packing_view, saved_grains
 
 with recorded_job(snakemake):
@@ -33,8 +33,7 @@ with recorded_job(snakemake):
     networks.draw_chains(output.force_chains, dpi, compressed, contacts, path, reading)
     networks.draw_rose(output.contact_rose, dpi, contacts, path)
 
-    dump = Path(files.path[0]).with_name("particles.dump.gz")
-    frames = read_dump(checked_dump(dump, snakemake)) if dump.exists() else ()
+    frames = chain.from_iterable(map(read_dump, kept_dump(files.path[0], snakemake)))
     view = packing_view(
         saved_grains(frames, packing, compressed, path),
         path,

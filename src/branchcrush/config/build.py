@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from branchcrush.config.units import LARGEST, SMALLEST, UNITS
+from branchcrush.config.units import UNITS
 from branchcrush.errors import GradingError
 from branchcrush.files.compression_tables import CompressionTable, read_compression
 from branchcrush.files.declared import Declared
@@ -29,6 +29,7 @@ from branchcrush.gradings.forms import (
 from branchcrush.gradings.mixtures import from_radii, mixture, single
 from branchcrush.gradings.size_fits import D_VALUES, SizeFit, curve_of
 from branchcrush.gradings.tables import from_density, from_histogram, from_percent_finer
+from branchcrush.packings.sizes import size_problem
 
 # Two sizes of a file that are nearer than this share of them are one.
 _SAME = 1e-9
@@ -93,6 +94,13 @@ class GradingValues:
         return table.sizes * self.to_radius, table.values, cut
 
 
+def _listed(values: GradingValues) -> Grading:
+    radii = read_radii(values["file"]) * values.to_radius
+    # Of another code, or of another unit: one size but for rounding, which has no range of sizes.
+    alike = radii[-1] - radii[0] <= _SAME * radii[-1]
+    return from_radii(np.full(radii.shape, radii[0]) if alike else radii)
+
+
 def _sieve(values: GradingValues) -> Grading:
     radius, percent, cut = values.table(read_sieve_table)
     return from_percent_finer(radius, percent, *cut)
@@ -134,7 +142,7 @@ FORMS: dict[str, Callable[[GradingValues], Grading]] = {
     "sieve": _sieve,
     "density": _density,
     "histogram": _histogram,
-    "radii": lambda values: from_radii(read_radii(values["file"]) * values.to_radius),
+    "radii": _listed,
     "mixture": _mixture,
 }
 
@@ -181,11 +189,8 @@ def grading_of(section: Mapping[str, Any]) -> Grading:
 
 def _refuse_sizes(smallest: float, largest: float, unit: str) -> None:
     """Refuse radii of a file that no grain has: keys of sizes are checked one by one."""
-    if 2.0 * smallest < SMALLEST or 2.0 * largest > LARGEST:
-        raise GradingError(
-            f"diameters are {2.0 * smallest:.3g} to {2.0 * largest:.3g} m, and must be from "
-            f"{SMALLEST:g} to {LARGEST:g} m: check the file and the unit, {unit}"
-        )
+    if problem := size_problem(2.0 * smallest, 2.0 * largest):
+        raise GradingError(f"{problem}: check the file and the unit, {unit}")
 
 
 def compression_of(section: Mapping[str, Any]) -> CompressionTable:

@@ -124,10 +124,9 @@ def _parsed(path):
     try:
         if path.is_dir():
             return " is a folder, and must be a text file of keys and values", None
-        size = path.stat().st_size
-        if size > _LARGEST:
+        if path.stat().st_size > _LARGEST:
             return (
-                f" has {size / 1e6:.1f} MB, and may have {_LARGEST / 1e6:g} MB: put lists of sizes "
+                f" has more than the {_LARGEST / 1e6:g} MB that it may have: put lists of sizes "
                 "into files of their own"
             ), None
         return None, yaml.load(path.read_text(encoding="utf-8-sig"), Loader=_Loader)

@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field
 
 from branchcrush.config.fields import Allowed, number, refusal
-from branchcrush.config.units import LARGEST, SMALLEST, UNITS
+from branchcrush.config.units import UNITS
+from branchcrush.packings.sizes import LARGEST, SMALLEST
 
 # Parameters of a distribution may lie far beyond the sizes that it is cut at.
 _BEYOND = 1e6

@@ -7,7 +7,7 @@ from branchcrush.config.sample import number_of_grains
 from branchcrush.config.schema import Config
 from branchcrush.errors import ConfigError
 from branchcrush.files.memory import Memory
-from branchcrush.loading.memory import expected_memory, is_too_much, memory_words
+from branchcrush.loading.memory import at_a_time, expected_memory, is_too_much, memory_words
 from branchcrush.loading.targets import Loading, planned_steps
 
 
@@ -57,9 +57,8 @@ def memory_warnings(
         loading, grains = Loading(**settings["loading"]), number_of_grains(settings)
         first, step = settings["initial_solid_fraction"], settings["strain_step"]
         _, states = planned_steps(loading, first, step)
-        ranks = min(settings["ranks"], cores)
+        jobs, ranks = at_a_time(len(seeds), settings["ranks"], cores)
         need = expected_memory(grains, states, ranks)
-        jobs = min(cores // ranks, len(seeds))
         words = memory_words(need, jobs, ranks, memory.total, memory.available)
         if is_too_much(need, memory.total):
             refused.append(f"config: samples.{name}.grains = {grains}: {words}")

@@ -2,5 +2,3 @@
 
 # [m]
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "inch": 0.0254}
-# Of a grain [m]. Outside of them it is the unit that is wrong.
-SMALLEST, LARGEST = 1e-9, 1e3

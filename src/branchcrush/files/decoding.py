@@ -38,11 +38,10 @@ def raw_content(path: str | PathLike[str]) -> bytes:
     if path.is_dir():
         raise GradingError(f"{path}: is a folder; give the name of a file in it")
     try:
-        size = path.stat().st_size
-        if size > _LARGEST:
+        if path.stat().st_size > _LARGEST:
             raise GradingError(
-                f"{path}: has {size / 1e6:.0f} MB, and a table may have {_LARGEST / 1e6:.0f} MB: "
-                "write it with fewer digits or fewer lines"
+                f"{path}: has more than the {_LARGEST / 1e6:g} MB that a table may have: write it "
+                "with fewer digits or fewer lines"
             )
         return path.read_bytes()
     except FileNotFoundError:

@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from branchcrush.errors import ResultsError
-from branchcrush.files.made import below_results, left_by, read_record
+from branchcrush.files.made import below_folder, below_results, left_by, read_record
 
 
 class Records:
@@ -190,9 +190,9 @@ def check_inputs(record: Mapping[str, Any], place: str) -> None:
     folder, _ = below_results(place, record["wildcards"])
     records = Records(folder)
     results = {
-        path.removeprefix(f"{folder}/"): digest
+        below: digest
         for path, digest in record["inputs"].items()
-        if folder and path.startswith(f"{folder}/")
+        if (below := below_folder(path, folder))
     }
     refuse([records.fault(below, digest) for below, digest in results.items()])
     makers = dict.fromkeys(maker for below in results for maker in records.makers(below))

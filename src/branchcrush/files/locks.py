@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import fcntl
+import functools
 import os
 import sys
 from os import PathLike
@@ -31,7 +32,8 @@ def locked(
     -------
     descriptor : int
     had : bool
-        Whether the lock is had; on a file system without locks it is, with a warning.
+        Whether the lock is had; on a file system without locks it is, with a warning, once in a
+        process.
 
     Raises
     ------
@@ -55,10 +57,7 @@ def locked(
             fcntl.flock(file, kind | (0 if wait else fcntl.LOCK_NB))
         except OSError as error:
             if error.errno in _NO_LOCKS:
-                sys.stderr.write(
-                    f"branchcrush: {path} is on a file system without locks, so nothing keeps two "
-                    "runs in this folder apart\n"
-                )
+                _tell_of_no_locks()
                 return file, True
             if error.errno not in (errno.EWOULDBLOCK, errno.EACCES):
                 raise
@@ -68,3 +67,54 @@ def locked(
             if os.path.samestat(os.fstat(file), os.stat(path)):
                 return file, True
         os.close(file)
+
+
+def is_locked(path: str | PathLike[str]) -> bool:
+    """Return whether somebody has a file locked for himself; one that is not there is not made.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    bool
+        False on a file system without locks.
+
+    Raises
+    ------
+    OSError
+        When the file cannot be opened.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.NamedTemporaryFile() as file:
+    ...     lock, _ = locked(file.name)
+    ...     had = is_locked(file.name)
+    ...     os.close(lock)
+    ...     had, is_locked(file.name)
+    (True, False)
+    """
+    try:
+        file = os.open(path, os.O_RDONLY)
+    except FileNotFoundError:
+        return False
+    try:
+        fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError as error:
+        if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
+            return True
+        if error.errno not in _NO_LOCKS:
+            raise
+    finally:
+        os.close(file)
+    return False
+
+
+@functools.cache
+def _tell_of_no_locks():
+    sys.stderr.write(
+        f"branchcrush: {os.getcwd()} is on a file system without locks, so nothing keeps two runs "
+        "in this folder apart\n"
+    )

@@ -21,11 +21,6 @@ _KINDS = {
     **dict.fromkeys(("branchcrush", "rule", "code"), str),
     **dict.fromkeys(("wildcards", "params", "inputs", "outputs"), dict),
 }
-# All keys of the records that earlier versions wrote, which had no digest of themselves.
-_WITHOUT_DIGEST = {
-    *("branchcrush", "rule", "wildcards", "code", "keep_dumps"),
-    *("params", "inputs", "outputs", "beside"),
-}
 
 
 def record_bytes(record: Mapping[str, Any]) -> bytes:
@@ -84,7 +79,7 @@ def read_record(path: str | PathLike[str]) -> dict[str, Any] | None:
         return {}
     body, _, end = content.rpartition(_SEAL)
     sealed = end == hashlib.sha256(body).hexdigest().encode() + _END
-    return record if sealed or set(record) == _WITHOUT_DIGEST else {}
+    return record if sealed else {}
 
 
 def below_results(path: str, wildcards: Mapping[str, Any]) -> tuple[str, str]:
@@ -115,6 +110,28 @@ def below_results(path: str, wildcards: Mapping[str, Any]) -> tuple[str, str]:
         return "", path
     at = places[-1 - own] + 1
     return "/".join(parts[:at]), "/".join(parts[at:])
+
+
+def below_folder(path: str, folder: str) -> str:
+    """Return where a file lies below the folder of the results, "" of the user's own.
+
+    Parameters
+    ----------
+    path : str
+        Of an input that a record tells of.
+    folder : str
+        From `below_results`; "" where the record does not tell it.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> below_folder("results/sand/fit.csv", "results"), below_folder("/data/sieve.csv", "")
+    ('sand/fit.csv', '')
+    """
+    return path.removeprefix(f"{folder}/") if folder and path.startswith(f"{folder}/") else ""
 
 
 def is_record(below: str) -> bool:

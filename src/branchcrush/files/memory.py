@@ -5,9 +5,10 @@ from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
-# Limit and use of a control group, by the version of these.
-_FILES_1 = ("memory.limit_in_bytes", "memory.usage_in_bytes")
-_FILES_2 = ("memory.max", "memory.current")
+# Limit and use of a control group, and what of its use are copies of files that the kernel lets go
+# when memory is asked for, by the version of these.
+_FILES_1 = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")
+_FILES_2 = ("memory.max", "memory.current", "inactive_file")
 
 
 class Memory(NamedTuple):
@@ -61,13 +62,14 @@ def _limits(root):
             continue
         # Version 2 has one tree for all controllers, 1 one for each.
         tree = root / "sys/fs/cgroup" / ("memory" if controllers else "")
-        files = _FILES_1 if controllers else _FILES_2
+        *files, copies = _FILES_1 if controllers else _FILES_2
         group = tree / name.lstrip("/")
         # A limit holds for all groups below it; inside a container the tree begins at its own.
         for place in (group, *group.parents):
             limit, used = (_text(place / file) for file in files)
             if limit.strip().isdecimal() and used.strip().isdecimal():
-                yield float(limit), float(used)
+                found = re.search(rf"^{copies} (\d+)$", _text(place / "memory.stat"), re.M)
+                yield float(limit), max(float(used) - float(found[1] if found else 0), 0.0)
             if place == tree:
                 break
 

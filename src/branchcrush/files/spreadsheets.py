@@ -56,8 +56,8 @@ def workbook_cells(
             size = sum(each.file_size for each in archive.infolist())
         if size > _LARGEST:
             raise GradingError(
-                f"{path}: has {size / 1e6:.0f} MB when it is unpacked, and a table may have "
-                f"{_LARGEST / 1e6:.0f} MB: save the one sheet as CSV"
+                f"{path}: has more than the {_LARGEST / 1e6:g} MB that a table may have when it is "
+                "unpacked: save the one sheet as CSV"
             )
         with warnings.catch_warnings():
             # Of styles and extensions that no table of numbers needs.

@@ -2,6 +2,11 @@
 
 # Interpreter, libraries and LAMMPS [bytes], and a contact in all tables of all states.
 _BASE, _CONTACT, _CONTACTS_PER_GRAIN = 350e6, 300.0, 3.0
+# Interpreter and libraries of a job that reads packings, and a contact that it holds [bytes]:
+# benchmarks/results/analysis.json, where it took 80 to 140.
+_READING_BASE, _READ_CONTACT = 150e6, 150.0
+# Whose contacts are held of all packings at once: the first that is certified, and the end.
+_STATES_OF_ALL = 2
 # What is expected may be half as much again.
 _CLEARLY = 1.5
 
@@ -29,6 +34,57 @@ def expected_memory(grains: float, states: int, ranks: int = 1) -> float:
     15.65
     """
     return _BASE * ranks + _CONTACT * _CONTACTS_PER_GRAIN * grains * (states + 2)
+
+
+def expected_reading_memory(grains: float, states: int, packings: int) -> float:
+    """Return about how much memory a job takes that reads the contacts of all packings.
+
+    It holds those of one packing in all its states, and of all packings in two of them.
+
+    Parameters
+    ----------
+    grains : float
+        Of a packing, at the end of the loading.
+    states : int
+        Saved on the way.
+    packings : int
+
+    Returns
+    -------
+    float
+        [bytes]
+
+    Examples
+    --------
+    >>> expected_reading_memory(1e4, 15, 1000) / 1e9
+    9.2265
+    """
+    states_held = states + 2 + _STATES_OF_ALL * packings
+    return _READING_BASE + _READ_CONTACT * _CONTACTS_PER_GRAIN * grains * states_held
+
+
+def at_a_time(packings: int, ranks: int, cores: int) -> tuple[int, int]:
+    """Return how many packings are at work at a time, and on how many cores each.
+
+    Parameters
+    ----------
+    packings : int
+    ranks : int
+        MPI processes that are to share a packing.
+    cores : int
+        That all share.
+
+    Returns
+    -------
+    jobs, ranks : int
+
+    Examples
+    --------
+    >>> at_a_time(5, 2, 7), at_a_time(2, 1, 7), at_a_time(5, 8, 2)
+    ((3, 2), (2, 1), (1, 2))
+    """
+    ranks = min(ranks, cores)
+    return min(cores // ranks, packings), ranks
 
 
 def is_too_much(need: float, total: float) -> bool:

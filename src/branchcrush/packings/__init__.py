@@ -14,6 +14,8 @@
     grain of one.
 `geometry`
     Volumes of spheres and of the cell.
+`sizes.size_problem`
+    Whether grains are of sizes that some have, or their unit is another.
 `cells`
     The cell of each state as the vectors of its edges: a cube, or what another code had.
 

@@ -5,41 +5,16 @@ from numpy.typing import NDArray
 
 from branchcrush.errors import ReadingError
 from branchcrush.packings.geometry import solid_volume
+from branchcrush.packings.sizes import SMALLEST
 from branchcrush.readers.cells import Cell
 
-# Of a grain, as of those of a grading [m]; and how far from the origin anything is [m].
-SMALLEST, LARGEST, FURTHEST = 1e-9, 1e3, 1e6
+# How far from the origin anything is [m].
+FURTHEST = 1e6
 # Beyond it whole numbers are not told apart, and a square is no number.
 LARGEST_ID, LARGEST_NUMBER = 2**53, 1e30
 # Volume of a cell over that of a box of its edges, below which it is flat, and of all grains over
 # that of the cell, above which they are not in it.
 _FLAT, _FILLED = 1e-6, 2.0
-
-
-def size_problem(diameters: NDArray) -> list[str]:
-    """Return whether grains are of sizes that none has, a line, or none.
-
-    Parameters
-    ----------
-    diameters : ndarray, shape (N,)
-        [m]
-
-    Returns
-    -------
-    list of str
-
-    Examples
-    --------
-    >>> size_problem(np.array([1e-3, 2e4]))[0][:62]
-    'diameters are 0.001 to 2e+04 m, and must be from 1e-09 to 1000'
-    """
-    smallest, largest = (float(each) for each in (diameters.min(), diameters.max()))
-    if smallest >= SMALLEST and largest <= LARGEST:
-        return []
-    return [
-        f"diameters are {smallest:.3g} to {largest:.3g} m, and must be from {SMALLEST:g} to "
-        f"{LARGEST:g} m: is the unit of length right?"
-    ]
 
 
 def sound_cell(cell: Cell, positions: NDArray, radii: NDArray, where: str) -> Cell:

@@ -7,9 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from branchcrush.errors import ReadingError
+from branchcrush.packings.sizes import size_problem
 from branchcrush.readers.frames import ColumnFrame
-from branchcrush.readers.limits import FURTHEST, LARGEST_ID, LARGEST_NUMBER, size_problem
+from branchcrush.readers.limits import FURTHEST, LARGEST_ID, LARGEST_NUMBER
 from branchcrush.readers.texts import listed
+from branchcrush.words import few
 
 # How many columns make each, and what each is in the words of an error.
 CONTACT_ROLES = {
@@ -150,7 +152,9 @@ def grains_of(frame: ColumnFrame, roles: Roles, length: float) -> Grains:
     if np.any(radii <= 0):
         problems.append(f"the radius is not above 0 of the grains {some(ids[radii <= 0])}")
     elif radii.size:
-        problems += size_problem(2.0 * radii * length)
+        diameters = 2.0 * radii * length
+        if problem := size_problem(diameters.min(), diameters.max()):
+            problems.append(f"{problem}: is the unit of length right?")
     if np.any(np.abs(columns["position"]) * length > FURTHEST):
         problems.append(f"a grain is more than {FURTHEST:g} m from the origin: is the unit right?")
     if problems:
@@ -177,5 +181,4 @@ def some(numbers: Sequence[float] | NDArray) -> str:
     >>> some([1, 2, 3, 4, 5, 6, 7])
     '1, 2, 3, 4, 5 and 2 more'
     """
-    shown = ", ".join(f"{number:.0f}" for number in numbers[:5])
-    return shown + (f" and {len(numbers) - 5} more" if len(numbers) > 5 else "")
+    return few((f"{number:.0f}" for number in numbers), most=5)

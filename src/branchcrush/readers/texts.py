@@ -16,8 +16,11 @@ from branchcrush.errors import ReadingError
 _PACKED = {".gz": "gzip", ".zst": "zstd", ".bz2": "bz2"}
 _MANTISSA = re.compile(r"^[+-]?0*\.?0*(?P<digits>[\d.]*)(?:[eE][+-]?\d+)?$")
 _TRUE, _FALSE = (re.compile(rf"\b{word}\b", re.IGNORECASE) for word in ("true", "false"))
-# Unpacked: ten million grains and their contacts have less.
+# Unpacked: ten million grains and their contacts have less [bytes].
 _LARGEST, _BLOCK = 4_000_000_000, 1 << 20
+# Over its packed size, of more than so many bytes: numbers are packed to a tenth, what is made to
+# fill a memory to a thousandth.
+_MOST_TIMES, _FEW = 200, 16_000_000
 _MOST_NAMES, _LONGEST_NAME = 20, 60
 # So many lines tell how many digits a file has.
 _LINES_OF_DIGITS = 200
@@ -50,14 +53,12 @@ def text_of(path: str | PathLike[str]) -> str:
     """
     kind = _PACKED.get(Path(path).suffix.lower())
     try:
-        data = Path(path).read_bytes() if os.path.getsize(path) <= _LARGEST else None
-        if kind and data is not None:
-            data = _unpacked(data, kind)
-        if data is None:
-            raise ReadingError(
-                f"{path}: has more than {_LARGEST / 1e9:g} GB: write fewer frames into one file"
-            )
-        text = data.decode("utf-8-sig")
+        size = os.path.getsize(path)
+        if size > _LARGEST:
+            raise _too_large(path)
+        data = _unpacked(path, kind, size) if kind else Path(path).read_bytes()
+        # Not by utf-8-sig, which copies all of it.
+        text = data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError:
         raise ReadingError(
             f"{path}: is no text; write it as text (ASCII), not in binary form"
@@ -68,7 +69,7 @@ def text_of(path: str | PathLike[str]) -> str:
         raise ReadingError(
             f"{path}: cannot be read or unpacked ({error}): is it whole? write it again"
         ) from None
-    if not text.strip():
+    if not text or text.isspace():
         raise ReadingError(f"{path}: is empty")
     return text
 
@@ -94,16 +95,27 @@ def listed(names: Iterable[str]) -> str:
     return ", ".join(names[:_MOST_NAMES]) + (f" and {more} others" if more > 0 else "")
 
 
-def _unpacked(data, kind):
-    """Return what is packed, or None of more than a text may have: few bytes can stand for it."""
-    blocks, size = [], 0
-    with pa.CompressedInputStream(pa.BufferReader(data), kind) as file:
+def _unpacked(path, kind, size):
+    """Return what is packed, unless it is more than a text may have: few bytes can stand for it."""
+    text = bytearray()
+    most = max(_FEW, _MOST_TIMES * size)
+    with pa.CompressedInputStream(pa.OSFile(os.fspath(path)), kind) as file:
         while block := file.read(_BLOCK):
-            blocks.append(block)
-            size += len(block)
-            if size > _LARGEST:
-                return None
-    return b"".join(blocks)
+            text += block
+            if len(text) > _LARGEST:
+                raise _too_large(path)
+            if len(text) > most:
+                raise ReadingError(
+                    f"{path}: unpacks to more than {_MOST_TIMES} times its size, which no text of "
+                    "numbers does: is it the right file? write it again"
+                )
+    return text
+
+
+def _too_large(path):
+    return ReadingError(
+        f"{path}: has more than {_LARGEST / 1e9:g} GB: write fewer frames into one file"
+    )
 
 
 def lines_of(path: str | PathLike[str]) -> list[str]:

@@ -12,7 +12,7 @@ from branchcrush.errors import ResultsError
 from branchcrush.files.datapackage import media_type
 from branchcrush.files.dictionary import result_files
 from branchcrush.files.digests import file_digest
-from branchcrush.files.made import below_results, is_record, left_by
+from branchcrush.files.made import below_folder, below_results, is_record, left_by
 from branchcrush.files.replacing import replacing
 from branchcrush.files.tables import read_json
 from branchcrush.results.verification import CRATE, Verification, verify
@@ -135,9 +135,9 @@ def _entities(
         folder = below_results(next(iter(record["outputs"]), ""), record["wildcards"])[0]
         read = []
         for path, digest in record["inputs"].items():
-            own = not path.startswith(f"{folder}/")
-            read.append(_data(path) if own else path.removeprefix(f"{folder}/"))
-            if own:
+            below = below_folder(path, folder)
+            read.append(below or _data(path))
+            if not below:
                 data[path] = digest
         result = [below for below, _ in _left(record) if (found.folder / below).is_file()]
         yield (
@@ -159,11 +159,9 @@ def _entities(
         )  # fmt: skip
     software = provenance.get("software", {})
     for name, version in software.items():
-        yield (
-            f"#{name}",
-            {"@type": "SoftwareApplication", "name": name, "softwareVersion": version,
-             "url": _ADDRESSES[name]},
-        )  # fmt: skip
+        entity = {"@type": "SoftwareApplication", "name": name, "softwareVersion": version}
+        # Another version may have noted what this one does not.
+        yield f"#{name}", entity | ({"url": _ADDRESSES[name]} if name in _ADDRESSES else {})
     yield (
         "#branchcrush",
         {

@@ -1,7 +1,7 @@
 """Whether every file of a study is what its job left, and all belong together."""
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,16 +11,16 @@ from branchcrush.errors import ResultsError
 from branchcrush.files.dictionary import result_files
 from branchcrush.files.digests import file_digest
 from branchcrush.files.intact import Records, again, disagreements
-from branchcrush.files.made import below_results, is_record
+from branchcrush.files.made import below_folder, below_results, is_record
 from branchcrush.files.tables import read_json
 from branchcrush.results.package import folder_of_results
+from branchcrush.words import few
 
 _PACKAGE = "datapackage.json"
 # What `results.crate` writes beside.
 CRATE = "ro-crate-metadata.json"
 # What it makes is asked for by hand, and has no record.
 _PREVIEW = "preview"
-_MOST_NAMED = 3
 
 
 class Verification(NamedTuple):
@@ -149,10 +149,8 @@ class _Study:
         for record in self.whole.values():
             for path in record["outputs"]:
                 rules.setdefault(below_results(path, record["wildcards"])[1], record["rule"])
-            root = f"{_root(record)}/"
             for path in record["inputs"]:
-                if path.startswith(root):
-                    below = path.removeprefix(root)
+                if below := below_folder(path, _root(record)):
                     rules.setdefault(below, listed.get(below, ""))
         for file, rule in rules.items():
             if file not in self.there:
@@ -178,12 +176,16 @@ class _Study:
         found = {}
         for record in records:
             root = _root(record)
-            # The folder that the study ran in, above a prefix of a module too.
-            place = self.folder.absolute().parents[root.count("/")]
-            own = (path for path in record["inputs"] if not path.startswith(f"{root}/"))
-            for path in own:
-                if path not in found and (place / path).is_file():
-                    found[path] = _digest(place / path)
+            # The folder that the study ran in, above a prefix of a module too. Absolute outputs do
+            # not tell it, and a copy may lie less deep.
+            above = self.folder.absolute().parents[root.count("/") :]
+            place = above[0] if above and not root.startswith("/") else None
+            for path in record["inputs"]:
+                if path in found or below_folder(path, root):
+                    continue
+                file = Path(path) if place is None else place / path
+                if file.is_absolute() and file.is_file():
+                    found[path] = _digest(file)
         return {"wildcards": {}, "params": {}, "inputs": found, "outputs": {}}
 
     # --- what else there is to know ---------------------------------------------------------------
@@ -203,24 +205,37 @@ class _Study:
         known = {*listed, _PACKAGE}
         left = [file for file in self.there if listed and file in outputs and file not in known]
         if left:
-            notes.append(f"of samples or seeds that the study no longer has: {_few(left)}")
+            notes.append(f"of samples or seeds that the study no longer has: {few(left)}")
         others = [
             file
             for file in self.there
             if not (file in told or file == CRATE or is_record(file)) and _is_result(file) is None
         ]
         if others:
-            notes.append(f"no results of this study: {_few(others)}")
+            notes.append(f"no results of this study: {few(others)}")
         return notes
 
 
-def _files(folder: Path) -> Iterator[str]:
-    """Yield all files below a folder but for hidden ones, which are nobody's results."""
-    for place, folders, files in os.walk(folder):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        for name in files:
-            if not name.startswith("."):
-                yield Path(place, name).relative_to(folder).as_posix()
+def _files(folder: Path, above: tuple[str, ...] = ()) -> Iterator[str]:
+    """Yield all files below a folder but for hidden ones, which are nobody's results.
+
+    Linked folders belong to it, as one that was moved to another disk; of a link to a folder that
+    it lies in, `above`, there is nothing more.
+    """
+    real = os.path.realpath(folder)
+    if real in above:
+        return
+    try:
+        entries = list(folder.iterdir())
+    except OSError:  # its files are told of as missing
+        return
+    for entry in entries:
+        if entry.name.startswith("."):
+            continue
+        if entry.is_dir():
+            yield from (f"{entry.name}/{file}" for file in _files(entry, (*above, real)))
+        else:
+            yield entry.name
 
 
 def _is_result(file: str) -> bool | None:
@@ -244,9 +259,3 @@ def _digest(file: Path) -> str:
 def _words(record: dict[str, Any]) -> str:
     words = " ".join(f"{name} {value}" for name, value in record["wildcards"].items())
     return f"rule {record['rule']}{' of ' if words else ''}{words}"
-
-
-def _few(names: Iterable[str]) -> str:
-    named = list(names)
-    more = f" and {len(named) - _MOST_NAMED} more" if len(named) > _MOST_NAMED else ""
-    return ", ".join(named[:_MOST_NAMED]) + more

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from branchcrush.breakage.rules import Breakage
-from branchcrush.loading.memory import expected_memory
+from branchcrush.loading.memory import expected_memory, expected_reading_memory
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import expected_overlap_ratio, planned_steps
 from branchcrush.study.preview_breakage import breaking
@@ -21,6 +21,8 @@ _GROWTH = 1.0 / 3.0
 _SECONDS, _GAIN = 0.5e-6, 1.2
 # Asked of a cluster over what is expected: packings and nodes differ by twice each. And at least.
 _TIMES_SECONDS, _TIMES_MEMORY, _MINUTES, _MEGABYTES = 4.0, 1.5, 2, 100
+# Of a job that reads packings: what profiles/slurm gives to all else.
+_READING_MINUTES, _READING_MEGABYTES = 60, 4000
 
 
 class Cost(NamedTuple):
@@ -102,15 +104,55 @@ def packing_request(sample: Sample, breakage: Breakage | None = None, attempt: i
     Request(mem_mb=1600, runtime=54)
     """
     cost = compression_cost(sample)
-    grains, seconds = sample.grains, cost.force_evaluations * sample.grains * _SECONDS
-    if breakage is not None:
-        one = replace(sample, seeds=(1,), refined_seeds=0)
-        unit = ("m", 1.0)  # of warnings, which nobody reads here
-        crushed = breaking(one, breakage, cost.force_evaluations, _SECONDS, unit)
-        grains, seconds = crushed.grains, crushed.seconds
-    memory = _TIMES_MEMORY * expected_memory(grains, cost.states, sample.ranks)
+    grains, seconds = _at_the_end(sample, breakage, cost)
     seconds *= _TIMES_SECONDS / _GAIN ** math.log2(sample.ranks)
     return Request(
-        mem_mb=attempt * _MEGABYTES * math.ceil(memory / (1e6 * _MEGABYTES)),
+        mem_mb=attempt * _megabytes(expected_memory(grains, cost.states, sample.ranks)),
         runtime=attempt * (_MINUTES + math.ceil(seconds / 60.0)),
     )
+
+
+def reading_request(
+    sample: Sample | None, breakage: Breakage | None = None, attempt: int = 1
+) -> Request:
+    """Return what a job asks a cluster for that reads the contacts of all packings of a sample.
+
+    Parameters
+    ----------
+    sample : Sample or None
+        None of packings that another code made, whose grains nobody has counted before.
+    breakage, attempt
+        As for `packing_request`; of crushed packings.
+
+    Returns
+    -------
+    Request
+        At least what the profile of a cluster gives to all else.
+
+    Examples
+    --------
+    >>> reading_request(None, attempt=2)
+    Request(mem_mb=8000, runtime=120)
+    """
+    megabytes = _READING_MEGABYTES
+    if sample is not None:
+        cost = compression_cost(sample)
+        grains, _ = _at_the_end(sample, breakage, cost)
+        need = expected_reading_memory(grains, cost.states, len(sample.seeds))
+        megabytes = max(megabytes, _megabytes(need))
+    return Request(mem_mb=attempt * megabytes, runtime=attempt * _READING_MINUTES)
+
+
+def _at_the_end(sample, breakage, cost):
+    """Return how many grains a packing has at the end, and what its job takes [s]."""
+    if breakage is None:
+        return sample.grains, cost.force_evaluations * sample.grains * _SECONDS
+    one = replace(sample, seeds=(1,), refined_seeds=0)
+    unit = ("m", 1.0)  # of warnings, which nobody reads here
+    crushed = breaking(one, breakage, cost.force_evaluations, _SECONDS, unit)
+    return crushed.grains, crushed.seconds
+
+
+def _megabytes(need):
+    """Return what is asked for where so many bytes are expected [MB]."""
+    return _MEGABYTES * math.ceil(_TIMES_MEMORY * need / (1e6 * _MEGABYTES))

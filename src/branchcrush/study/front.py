@@ -7,6 +7,7 @@ from branchcrush.energy.fit import EnergySplitFit
 from branchcrush.energy.split import PAPER_EXPONENT
 from branchcrush.study.crushing_words import form_rows
 from branchcrush.study.results import NOT_CERTIFIED
+from branchcrush.words import few
 
 # n is told to change along the loading from this difference on.
 _SEEN = 0.1
@@ -60,7 +61,9 @@ def study_sentences(
         named.setdefault(certificate["verdict"], []).append(name)
     told = [
         f"{len(samples)} samples: "
-        + "; ".join(f"{len(names)} {verdict} ({_few(names)})" for verdict, names in named.items())
+        + "; ".join(
+            f"{len(names)} {verdict} ({few(names, _FEW)})" for verdict, names in named.items()
+        )
         + "."
     ]
     known = sorted(
@@ -79,7 +82,7 @@ def study_sentences(
     alone = [name for name, _, certificate in samples if certificate["seeds_certified"] == 1]
     if alone:
         told.append(
-            f"No interval is known of one packing alone: {_few(alone)}. More seeds give one."
+            f"No interval is known of one packing alone: {few(alone, _FEW)}. More seeds give one."
         )
     told += [
         f"{name} has no n: {fit.reason}."
@@ -87,11 +90,6 @@ def study_sentences(
         if fit.reason is not None
     ]
     return told
-
-
-def _few(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
-    return ", ".join(names[:_FEW]) + more
 
 
 def _verdict(certificate: Mapping[str, Any]) -> str:

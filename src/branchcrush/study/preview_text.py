@@ -4,7 +4,7 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 
-from branchcrush.loading.memory import memory_words
+from branchcrush.loading.memory import at_a_time, memory_words
 from branchcrush.study.preview import PERCENTS, Plan
 from branchcrush.study.preview_breakage_words import grains_words, strength_words
 from branchcrush.study.preview_rods import carrying_words
@@ -287,8 +287,7 @@ def _warnings(plan: Plan, cores: int, memory: tuple[float, float] | None) -> lis
     if ranks > cores:
         warnings.append(f"ranks {ranks}, and {cores} core(s) -> {cores} are started")
     if memory is not None:
-        used = min(ranks, cores)
-        jobs = min(cores // used, len(plan.sample.seeds))
+        jobs, used = at_a_time(len(plan.sample.seeds), ranks, cores)
         words = memory_words(plan.memory, jobs, used, *memory)
         warnings += [f"{words} -> jobs may be killed for want of memory"] if words else []
     return warnings

@@ -1,11 +1,13 @@
 """Sizes, lines, files and names that no powder has: one short message each, at once."""
 
+import numpy as np
 import pytest
 
 from branchcrush.config.build import grading_of
 from branchcrush.config.checks import checked_study
 from branchcrush.config.file import config_file_problem
 from branchcrush.files import decoding
+from branchcrush.samples.grading import grading_results
 from tests.unit.config.studies import SAMPLE, SIEVE, UNIFORM, lines_of, study_of
 
 TABLES = {
@@ -36,6 +38,17 @@ def test_sizes_that_differ_by_rounding_are_refused(folder, form):
     section = of_file(form, TABLES[form].format(*sizes), folder)
     (line,) = lines_of(study_of(grading=section, allow_unrepresentative=True))
     assert "1 and 1.0000000000000002 are one size but for rounding: remove one" in line
+
+
+def test_a_list_of_grains_that_differ_by_rounding_alone_is_of_one_size(folder):
+    alike = grading_of(of_file("radii", "1.0\n" * 60 + "1.0000000000000002\n", folder))
+    (radius,), (share,) = alike.discrete_part
+    assert share == 1.0
+    # What a job does with it.
+    grading_results(alike, 61, 0.7, [np.full(61, radius)], ultimate_alpha=2.6)
+    # Beside another size they are as they were written.
+    three = grading_of(of_file("radii", "1.0\n1.0000000000000002\n2\n", folder))
+    assert len(three.discrete_part[0]) == 3
 
 
 def test_a_density_has_any_scale(folder):
@@ -70,13 +83,13 @@ def test_a_file_larger_than_any_table_is_refused_before_it_is_read(folder, monke
     monkeypatch.setattr(decoding, "_LARGEST", 1000)
     section = of_file("sieve", "1,0\n" + "2,50\n" * 300 + "3,100\n", folder)
     (line,) = lines_of(study_of(grading=section, allow_unrepresentative=True))
-    assert "and a table may have" in line
+    assert "has more than the 0.001 MB that a table may have: write it with fewer" in line
 
 
 def test_a_configuration_larger_than_any_study_is_refused_before_it_is_parsed(tmp_path):
     path = tmp_path / "config.yaml"
     path.write_text("samples: [" + "1, " * 1_000_000 + "1]\n")
-    assert "has 3.0 MB, and may have 0.5 MB" in config_file_problem(path)
+    assert "has more than the 0.5 MB that it may have: put lists" in config_file_problem(path)
 
 
 @pytest.mark.parametrize("section", ["samples", "measured"])

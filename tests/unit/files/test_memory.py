@@ -62,6 +62,32 @@ def test_a_limit_of_version_1_has_a_tree_of_its_own(kernel):
     assert machine_memory(root) == Memory(4e9, 0.0)
 
 
+@pytest.mark.parametrize(
+    ("told", "files", "inactive"),
+    [
+        (V2, ("user.slice/job_7/memory.max", "user.slice/job_7/memory.current"), "inactive_file"),
+        (
+            V1,
+            ("memory/job_7/memory.limit_in_bytes", "memory/job_7/memory.usage_in_bytes"),
+            "total_inactive_file",
+        ),
+    ],
+)
+def test_copies_of_files_that_the_kernel_lets_go_are_free(kernel, told, files, inactive):
+    limit, used = (f"sys/fs/cgroup/{file}" for file in files)
+    stat = f"anon 900000000\n{inactive} 2500000000\nactive_file 100000000\n"
+    root = kernel(
+        {
+            "proc/meminfo": MEMINFO,
+            "proc/self/cgroup": told,
+            limit: "4000000000\n",
+            used: "3500000000\n",
+            f"{limit.rsplit('/', 1)[0]}/memory.stat": stat,
+        }
+    )
+    assert machine_memory(root) == Memory(4e9, 3e9)
+
+
 def test_no_limit_of_version_1_is_a_number_larger_than_any_machine(kernel):
     root = kernel(
         {

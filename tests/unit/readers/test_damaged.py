@@ -1,13 +1,17 @@
 """Files that are damaged, or not what they are said to be: every one is named, none guessed."""
 
+import gzip
 import re
+import tracemalloc
 
+import pyarrow as pa
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from branchcrush.errors import ReadingError
 from branchcrush.readers.packing import read_frames
+from branchcrush.readers.texts import text_of
 from tests.unit.readers.conftest import CASES, DATA, source_of_case
 
 
@@ -164,6 +168,34 @@ def test_what_is_no_such_file_at_all_is_told(tmp_path):
     packed = tmp_path / "c.dump.gz"
     packed.write_bytes((DATA / CASES["lammps"][0] / CASES["lammps"][2]).read_bytes()[:-200])
     assert "c.dump.gz" in refused(source_of_case("lammps", grains=[packed]))[0]
+
+
+@pytest.mark.parametrize(("end", "kind"), [("gz", "gzip"), ("zst", "zstd"), ("bz2", "bz2")])
+def test_a_small_file_that_would_fill_the_memory_is_refused_before_it_does(end, kind, tmp_path):
+    packed = tmp_path / f"grains.{end}"
+    with pa.CompressedOutputStream(str(packed), kind) as file:
+        for _ in range(40):
+            file.write(b"0" * 1_000_000)
+    assert packed.stat().st_size < 50_000
+    tracemalloc.start()
+    try:
+        with pytest.raises(ReadingError, match=rf"grains.{end}: unpacks to more than 200 times"):
+            text_of(packed)
+        assert tracemalloc.get_traced_memory()[1] < 25e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_a_packed_text_is_held_no_more_than_twice_while_it_is_read(tmp_path):
+    packed = tmp_path / "grains.gz"
+    text = "".join(f"{number} 0.5 0.25\n" for number in range(200_000))
+    packed.write_bytes(gzip.compress(text.encode()))
+    tracemalloc.start()
+    try:
+        assert text_of(packed) == text
+        assert tracemalloc.get_traced_memory()[1] < 2.3 * len(text) + 2e6
+    finally:
+        tracemalloc.stop()
 
 
 def test_frames_without_a_partner_or_with_other_grains_are_told(tmp_path):

@@ -1,6 +1,8 @@
 """What packings cost and what their jobs ask a cluster for, by hand."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -9,12 +11,13 @@ from hypothesis import strategies as st
 from branchcrush.breakage.rules import Breakage
 from branchcrush.breakage.strength import Strength
 from branchcrush.gradings.forms import uniform
-from branchcrush.loading.memory import expected_memory
+from branchcrush.loading.memory import expected_memory, expected_reading_memory
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.targets import Loading
 from branchcrush.packings.contact_laws import LinearContact
-from branchcrush.study.cost import compression_cost, packing_request
+from branchcrush.study.cost import compression_cost, packing_request, reading_request
 
+ANALYSIS = Path(__file__).parents[3] / "benchmarks/results/analysis.json"
 SAMPLE = Sample(
     grading=uniform(4e-4, 6e-4),
     sampling="random",
@@ -79,3 +82,29 @@ def test_a_packing_that_is_crushed_asks_for_its_fragments():
     assert crushed.runtime > 5 * whole.runtime
     # Of one packing, however many there are.
     assert packing_request(replace(sample, seeds=(1,), refined_seeds=0), SAND) == crushed
+
+
+@pytest.mark.parametrize("sample", ["many_seeds", "large_packing"])
+def test_what_reads_all_packings_is_expected_to_take_what_was_measured(sample):
+    measured = json.loads(ANALYSIS.read_text(encoding="utf-8"))["result"][sample]
+    of_a_packing = measured["contacts"] / measured["seeds"]
+    # In the benchmark every state is a loaded one.
+    per_grain = of_a_packing / measured["states"] / measured["grains"]
+    states = measured["states"] - 2
+    need = expected_reading_memory(measured["grains"] * per_grain / 3.0, states, measured["seeds"])
+    rules = ("energy_split", "branch_lengths", "sharing")
+    took = [measured["steps"][rule]["peak_memory_MB"] for rule in rules]
+    assert max(took) < need / 1e6 < 1.5 * max(took)
+
+
+def test_to_read_a_large_study_takes_more_than_the_profile_gives_and_a_small_one_does_not():
+    assert reading_request(replace(SAMPLE, seeds=(1, 2, 3)), attempt=2) == (8000, 120)
+    large = replace(SAMPLE, grains=10_000, seeds=tuple(range(1000)))
+    # 150 bytes of 3 contacts a grain, in 17 states of one packing and in two of each.
+    by_hand = 1.5 * (150e6 + 150.0 * 3 * 1e4 * (17 + 2 * 1000))
+    assert 0 <= reading_request(large).mem_mb - by_hand / 1e6 < 100
+    assert reading_request(large).runtime == 60
+    loading = Loading("solid_fraction", 0.745)
+    crushed = replace(SAMPLE, grains=500, loading=loading, seeds=tuple(range(1000)))
+    whole, broken = reading_request(crushed), reading_request(crushed, SAND)
+    assert broken.mem_mb > 2 * whole.mem_mb
