@@ -123,12 +123,12 @@ class YieldLine:
             self.pieces = np.union1d(self.pieces, np.concatenate([near, low, high]))
             self.pieces = self.pieces[self.pieces <= end]
             self._look()
-            self.looks = np.unique(self.looks)
 
     def _look(self) -> None:
         inner = np.linspace(0.0, 1.0, _LOOKS)[:-1]
         looks = self.pieces[:-1, None] + np.diff(self.pieces)[:, None] * inner
-        self.looks = np.append(looks.ravel(), self.pieces[-1])
+        # Of pieces between neighbours there are no looks but the ends.
+        self.looks: NDArray = np.unique(np.append(looks.ravel(), self.pieces[-1]))
         self._at_looks: NDArray | None = None
 
     def _last_yielding(self) -> float:
