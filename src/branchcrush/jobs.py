@@ -2,7 +2,6 @@
 
 import contextlib
 import errno
-import shutil
 import sys
 import traceback
 from collections.abc import Iterator
@@ -119,33 +118,3 @@ def _note(log, text):
     except OSError as error:
         return error.strerror or str(error)
     return ""
-
-
-@contextlib.contextmanager
-def checkpoint_of(results: str | PathLike[str]) -> Iterator[Path]:
-    """Yield the folder where a job keeps what it goes on from when it is killed.
-
-    It lies beside the locks of the run, where no cleaning of scratch comes, and is removed when the
-    job has ended well.
-
-    Parameters
-    ----------
-    results : path-like
-        The folder of the job's results, which no other job has.
-
-    Yields
-    ------
-    Path
-        It need not be there.
-
-    Examples
-    --------
-    >>> with checkpoint_of("results/sand/seed_1") as folder:
-    ...     folder.as_posix()
-    '.branchcrush/checkpoints/results/sand/seed_1'
-    """
-    # Never where the results are, however their folder is told.
-    parts = [part for part in Path(results).parts if part not in ("/", "..")]
-    folder = Path(".branchcrush", "checkpoints", *parts)
-    yield folder
-    shutil.rmtree(folder, ignore_errors=True)

@@ -3,11 +3,13 @@
 import contextlib
 import json
 import os
+import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from branchcrush import __version__
+from branchcrush.checkpoints import checkpoint_of
 from branchcrush.claims import claimed
 from branchcrush.files.digests import Digests, digests_of, file_digest
 from branchcrush.files.intact import Records, check_inputs, refuse
@@ -25,7 +27,9 @@ KEPT_DUMPS = ("none", "last", "all")
 
 @contextlib.contextmanager
 def recorded_job(snakemake: Any) -> Iterator[list[str]]:
-    """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
+    """Run a job of the workflow as `jobs.job` does; it ends with the record of what made it.
+
+    What it kept to go on from is removed then.
 
     Its inputs are read before, and held against the records of the jobs that made them. Whoever
     else makes the same results, from another run or by a job that was begun twice, is waited for.
@@ -58,6 +62,8 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
         digests.note()
         with replacing(snakemake.output.record) as file:
             file.write(record_bytes(record))
+        # While nobody else makes the same, who would work in it.
+        shutil.rmtree(checkpoint_of(snakemake.output.record), ignore_errors=True)
 
 
 def checked_dump(path: Path, snakemake: Any) -> Path:

@@ -20,6 +20,7 @@ from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
+from branchcrush.checkpoints import remove_finished
 from branchcrush.claims import CLAIMS, Claim, standing_claims
 from branchcrush.errors import RunError
 from branchcrush.files.locks import locked
@@ -72,6 +73,7 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
         _write(lock, {"run": run, **_holder()})
         _wait_for_jobs(folder / "jobs.lock", cluster)
         remove_leavings("results")
+        remove_finished()
         remove_dead(tempfile.gettempdir(), "branchcrush-")
         os.environ[_VARIABLE] = run
         try:

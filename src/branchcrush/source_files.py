@@ -13,6 +13,7 @@ _NO_RESULT = {
     "jobs",
     "records",
     "claims",
+    "checkpoints",
     "files.digests",
     "files.intact",
     "files.locks",

@@ -2,11 +2,14 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+from branchcrush.checkpoints import checkpoint_of
+from branchcrush.claims import standing_claims
 from branchcrush.errors import FitError
 from branchcrush.files.made import read_record
 from branchcrush.records import (
@@ -64,6 +67,32 @@ def test_a_job_that_fails_leaves_no_record():
     with pytest.raises(SystemExit), recorded_job(as_script(fit())):
         raise FitError("no load")
     assert read_record(RECORD) is None
+
+
+def kept(made):
+    """Return a file among what a job keeps to go on from, as if it had been killed before."""
+    file = checkpoint_of(made.output.record) / "state.kept"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("12")
+    return file
+
+
+def test_what_a_job_goes_on_from_is_gone_with_its_record_before_another_may_begin(monkeypatch):
+    made = fit()
+    state, other = kept(made), kept(walk())
+    with pytest.raises(SystemExit), recorded_job(as_script(made)):
+        raise FitError("no load")
+    assert state.exists()
+    seen = []
+
+    def rmtree(path, remove=shutil.rmtree, **others):
+        seen.append((Path(RECORD).exists(), [claim.result for claim in standing_claims()]))
+        remove(path, **others)
+
+    monkeypatch.setattr(shutil, "rmtree", rmtree)
+    do(made)
+    assert (state.parent.exists(), other.exists()) == (False, True)
+    assert seen == [(True, [RECORD])]
 
 
 @pytest.mark.parametrize("notes", [True, False])
