@@ -13,6 +13,7 @@ from branchcrush.runs import join_run
 
 # What the machine refuses, and what a person can do about it.
 _SPACE, _PLACE = "free some space", "mend that"
+_FILE = "move the file that lies in the place of a folder"
 _OF_THE_MACHINE = {
     errno.ENOSPC: _SPACE,
     errno.EDQUOT: _SPACE,
@@ -20,8 +21,11 @@ _OF_THE_MACHINE = {
     errno.EACCES: "change its permissions",
     errno.EPERM: "change its permissions",
     errno.EROFS: "run in a folder that can be written to",
-    errno.ENOTDIR: "move the file that lies in the place of a folder",
+    errno.ENOTDIR: _FILE,
+    errno.EEXIST: _FILE,
     errno.EISDIR: "move the folder that lies in the place of a file",
+    errno.ENAMETOOLONG: "give a shorter name, or run in a folder whose path is shorter",
+    errno.ELOOP: "remove the symbolic links that lead to each other",
     errno.EIO: _PLACE,
     errno.ESTALE: _PLACE,
     errno.EMFILE: "raise what `ulimit -n` allows",
@@ -59,10 +63,10 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
     ...         print(Path(folder, "fit.log").read_text(), end="")
     branchcrush: no packing carries load
     """
-    join_run()
     log = Path(log)
-    _note(log, "")
     try:
+        join_run()
+        _note(log, "")
         yield
     except Exception as error:
         words = message_of(error)

@@ -66,7 +66,7 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
     Traceback (most recent call last):
     branchcrush.errors.RunError: another run has this folder since ...
     """
-    folder = Path(_FOLDER).resolve()
+    folder = Path(_FOLDER).absolute()
     with _held(folder / "run.lock") as lock:
         run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {start_of(os.getpid())}"
         run += f" {_CLUSTER}" if cluster else ""
@@ -100,7 +100,7 @@ def join_run() -> None:
         end_with_parent()
         if not _is_of(os.getppid(), run):
             os.kill(os.getpid(), signal.SIGKILL)
-    folder = Path(_FOLDER).resolve()
+    folder = Path(_FOLDER).absolute()
     # Held until this process ends: no other run begins before.
     locked(folder / "jobs.lock", shared=True, wait=True)
     if not _lives(run, folder / "run.lock"):
