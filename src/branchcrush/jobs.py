@@ -9,6 +9,7 @@ from os import PathLike
 from pathlib import Path
 
 from branchcrush.errors import BranchcrushError
+from branchcrush.lammps.links import remove_dead_links
 from branchcrush.runs import join_run
 
 # What the machine refuses, and what a person can do about it.
@@ -67,6 +68,8 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
     try:
         join_run()
         _note(log, "")
+        # On a node of a cluster no run does it.
+        remove_dead_links()
         yield
     except Exception as error:
         words = message_of(error)

@@ -12,7 +12,6 @@ import shlex
 import shutil
 import signal
 import sys
-import tempfile
 import threading
 import time
 import uuid
@@ -24,7 +23,8 @@ from branchcrush.checkpoints import remove_finished
 from branchcrush.claims import CLAIMS, Claim, standing_claims
 from branchcrush.errors import RunError
 from branchcrush.files.locks import locked
-from branchcrush.files.scratch import remove_dead, remove_leavings
+from branchcrush.files.scratch import remove_leavings
+from branchcrush.lammps.links import remove_dead_links
 from branchcrush.lammps.processes import end_with_parent, start_of
 
 _FOLDER = ".branchcrush"
@@ -59,8 +59,7 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
 
     Examples
     --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
+    >>>     >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
     ...     with one_run():
     ...         pass
     Traceback (most recent call last):
@@ -74,7 +73,7 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
         _wait_for_jobs(folder / "jobs.lock", cluster)
         remove_leavings("results")
         remove_finished()
-        remove_dead(tempfile.gettempdir(), "branchcrush-")
+        remove_dead_links()
         os.environ[_VARIABLE] = run
         try:
             with _interrupt_ends_jobs(lock):

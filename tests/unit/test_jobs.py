@@ -1,12 +1,16 @@
 """How a job ends: what stands in its log, on the screen, and in its exit code."""
 
 import errno
+import os
+import tempfile
 
 import pytest
 
 from branchcrush.claims import CLAIMS, claimed
 from branchcrush.errors import ConfigError, GradingError
+from branchcrush.files.scratch import scratch_folder
 from branchcrush.jobs import job
+from branchcrush.lammps import links
 
 
 def test_job_that_ends_well_leaves_its_log_alone(tmp_path, capsys):
@@ -144,3 +148,17 @@ def test_a_run_that_cannot_be_joined_is_one_line(tmp_path, monkeypatch, capsys):
         ": remove the symbolic links that lead to each other, then repeat the command"
     )
     assert (tmp_path / "fit.log").read_text() == f"{line}\n"
+
+
+def test_scratch_of_dead_jobs_of_this_machine_goes_wherever_it_lies(tmp_path, monkeypatch):
+    given, other = tmp_path / "a b", tmp_path / "plain"
+    monkeypatch.setattr(tempfile, "tempdir", str(given))
+    monkeypatch.setattr(links, "_PLACES", (str(other),))
+    dead = [folder / f"branchcrush-{os.uname().nodename}-dead" for folder in (given, other)]
+    others = [other / "branchcrush-another-machine-1", other / "theirs"]
+    for folder in (*dead, *others):
+        folder.mkdir(parents=True)
+        (folder / "inputs").touch()
+    with scratch_folder("branchcrush-", other) as alive, job(tmp_path / "fit.log"):
+        assert [path for path in dead if path.exists()] == []
+        assert sorted(other.iterdir()) == sorted([alive, *others])
