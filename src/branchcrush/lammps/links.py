@@ -4,7 +4,7 @@ import os
 import re
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
@@ -54,7 +54,11 @@ def remove_dead_links() -> None:
 
     Those of other machines are for their own jobs to clear.
     """
-    for folder in {tempfile.gettempdir(), *_PLACES}:
+    places = set(_PLACES)
+    # It writes to a folder to find one, which a full disk refuses.
+    with suppress(OSError):
+        places.add(tempfile.gettempdir())
+    for folder in places:
         remove_dead(folder, _PREFIX)
 
 
