@@ -37,13 +37,18 @@ class Claim(NamedTuple):
 
 
 @contextlib.contextmanager
-def claimed(result: str | PathLike[str]) -> Iterator[None]:
+def claimed(result: str | PathLike[str]) -> Iterator[bool]:
     """Have the making of a result to this process, after whoever has it now.
 
     Parameters
     ----------
     result : path-like
         From the folder that the study runs in.
+
+    Yields
+    ------
+    bool
+        Whether somebody had it, who may have made the result.
 
     Examples
     --------
@@ -66,7 +71,7 @@ def claimed(result: str | PathLike[str]) -> Iterator[None]:
         os.truncate(lock, 0)
         claim = Claim(str(result), os.uname().nodename, os.getpid(), _job(), _now())
         os.pwrite(lock, json.dumps(claim._asdict()).encode(), 0)
-        yield
+        yield not had
     finally:
         path.unlink(missing_ok=True)
         os.close(lock)

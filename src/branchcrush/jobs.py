@@ -2,7 +2,6 @@
 
 import contextlib
 import errno
-import shutil
 import sys
 import traceback
 from collections.abc import Iterator
@@ -10,10 +9,12 @@ from os import PathLike
 from pathlib import Path
 
 from branchcrush.errors import BranchcrushError
+from branchcrush.lammps.links import remove_dead_links
 from branchcrush.runs import join_run
 
 # What the machine refuses, and what a person can do about it.
 _SPACE, _PLACE = "free some space", "mend that"
+_FILE = "move the file that lies in the place of a folder"
 _OF_THE_MACHINE = {
     errno.ENOSPC: _SPACE,
     errno.EDQUOT: _SPACE,
@@ -21,8 +22,11 @@ _OF_THE_MACHINE = {
     errno.EACCES: "change its permissions",
     errno.EPERM: "change its permissions",
     errno.EROFS: "run in a folder that can be written to",
-    errno.ENOTDIR: "move the file that lies in the place of a folder",
+    errno.ENOTDIR: _FILE,
+    errno.EEXIST: _FILE,
     errno.EISDIR: "move the folder that lies in the place of a file",
+    errno.ENAMETOOLONG: "give a shorter name, or run in a folder whose path is shorter",
+    errno.ELOOP: "remove the symbolic links that lead to each other",
     errno.EIO: _PLACE,
     errno.ESTALE: _PLACE,
     errno.EMFILE: "raise what `ulimit -n` allows",
@@ -60,10 +64,12 @@ def job(log: str | PathLike[str]) -> Iterator[None]:
     ...         print(Path(folder, "fit.log").read_text(), end="")
     branchcrush: no packing carries load
     """
-    join_run()
     log = Path(log)
-    _note(log, "")
     try:
+        join_run()
+        _note(log, "")
+        # On a node of a cluster no run does it.
+        remove_dead_links()
         yield
     except Exception as error:
         words = message_of(error)
@@ -119,33 +125,3 @@ def _note(log, text):
     except OSError as error:
         return error.strerror or str(error)
     return ""
-
-
-@contextlib.contextmanager
-def checkpoint_of(results: str | PathLike[str]) -> Iterator[Path]:
-    """Yield the folder where a job keeps what it goes on from when it is killed.
-
-    It lies beside the locks of the run, where no cleaning of scratch comes, and is removed when the
-    job has ended well.
-
-    Parameters
-    ----------
-    results : path-like
-        The folder of the job's results, which no other job has.
-
-    Yields
-    ------
-    Path
-        It need not be there.
-
-    Examples
-    --------
-    >>> with checkpoint_of("results/sand/seed_1") as folder:
-    ...     folder.as_posix()
-    '.branchcrush/checkpoints/results/sand/seed_1'
-    """
-    # Never where the results are, however their folder is told.
-    parts = [part for part in Path(results).parts if part not in ("/", "..")]
-    folder = Path(".branchcrush", "checkpoints", *parts)
-    yield folder
-    shutil.rmtree(folder, ignore_errors=True)

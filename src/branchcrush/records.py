@@ -3,13 +3,17 @@
 import contextlib
 import json
 import os
+import shutil
+import sys
 from collections.abc import Iterable, Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from branchcrush import __version__
+from branchcrush.checkpoints import checkpoint_of
 from branchcrush.claims import claimed
+from branchcrush.errors import ResultsError
 from branchcrush.files.digests import Digests, digests_of, file_digest
 from branchcrush.files.intact import Records, check_inputs, refuse
 from branchcrush.files.made import below_results, read_record, record_bytes
@@ -26,7 +30,9 @@ _DUMP = "particles.dump.gz"
 
 @contextlib.contextmanager
 def recorded_job(snakemake: Any) -> Iterator[list[str]]:
-    """Run a job of the workflow as `jobs.job` does; its last act is the record of what made it.
+    """Run a job of the workflow as `jobs.job` does; it ends with the record of what made it.
+
+    What it kept to go on from is removed then.
 
     Its inputs are read before, and held against the records of the jobs that made them. Whoever
     else makes the same results, from another run or by a job that was begun twice, is waited for.
@@ -44,9 +50,12 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
     Raises
     ------
     SystemExit
-        For a `BranchcrushError`; one is an input that is not what its job left.
+        For a `BranchcrushError`; one is an input that is not what its job left. With exit code 0
+        where whoever was waited for has made the results.
     """
-    with job(snakemake.log[0]), claimed(snakemake.output.record):
+    with job(snakemake.log[0]), claimed(snakemake.output.record) as waited:
+        if waited and _is_made(snakemake):
+            sys.exit(0)
         beside: list[str] = []
         digests = Digests(snakemake.rule, trust=False)
         record = _made_with(snakemake, snakemake.rule)
@@ -57,8 +66,28 @@ def recorded_job(snakemake: Any) -> Iterator[list[str]]:
         record["outputs"] = digests_of(_results(snakemake), digests)
         record["beside"] = digests_of(beside, digests)
         digests.note()
+        _check_left({**record["outputs"], **record["beside"]})
         with replacing(snakemake.output.record) as file:
             file.write(record_bytes(record))
+        # While nobody else makes the same, who would work in it.
+        shutil.rmtree(checkpoint_of(snakemake.output.record), ignore_errors=True)
+
+
+def _is_made(snakemake):
+    """Return whether the results are there, made with what they would be made with now."""
+    if not read_record(snakemake.output.record):
+        return False
+    return not _reason(snakemake, snakemake.rule, Digests(snakemake.rule, trust=False))
+
+
+def _check_left(files):
+    """Refuse a record of a file that is gone."""
+    gone = [path for path, digest in files.items() if not digest]
+    if gone:
+        raise ResultsError(
+            f"{gone[0]} was removed, or cannot be read, while the job that made it was at work, "
+            "perhaps by a second job for the same results: repeat the command"
+        )
 
 
 def kept_dump(beside: str | PathLike[str], snakemake: Any) -> list[Path]:
@@ -136,13 +165,13 @@ def out_of_date(jobs: Iterable[Any]) -> list[OutOfDate]:
         OutOfDate(each, reason)
         for each in jobs
         if "record" in each.output.keys()  # noqa: SIM118 (a Namedlist is a list)
-        if (reason := _reason(each, digests))
+        if (reason := _reason(each, each.rule.name, digests))
     ]
     digests.note()
     return found
 
 
-def _reason(made, digests):
+def _reason(made, rule, digests):
     """Return why a job has to be done again, in words, or "" where it fits."""
     record, results = read_record(made.output.record), _results(made)
     missing = [path for path in results if not os.path.exists(path)]
@@ -156,7 +185,7 @@ def _reason(made, digests):
         return "its record is damaged"
     if missing:
         return f"its file {_name(missing[0])} is missing"
-    now = _made_with(made, made.rule.name)
+    now = _made_with(made, rule)
     if now["code"] != record["code"]:
         made_by = record["branchcrush"]
         update = "" if made_by == __version__ else f" from branchcrush {made_by} to {__version__}"

@@ -12,7 +12,6 @@ import shlex
 import shutil
 import signal
 import sys
-import tempfile
 import threading
 import time
 import uuid
@@ -20,10 +19,12 @@ from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
+from branchcrush.checkpoints import remove_finished
 from branchcrush.claims import CLAIMS, Claim, standing_claims
 from branchcrush.errors import RunError
 from branchcrush.files.locks import locked
-from branchcrush.files.scratch import remove_dead, remove_leavings
+from branchcrush.files.scratch import remove_leavings
+from branchcrush.lammps.links import remove_dead_links
 from branchcrush.lammps.processes import end_with_parent, start_of
 
 _FOLDER = ".branchcrush"
@@ -58,21 +59,21 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
 
     Examples
     --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
+    >>>     >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
     ...     with one_run():
     ...         pass
     Traceback (most recent call last):
     branchcrush.errors.RunError: another run has this folder since ...
     """
-    folder = Path(_FOLDER).resolve()
+    folder = Path(_FOLDER).absolute()
     with _held(folder / "run.lock") as lock:
         run = f"{uuid.uuid4().hex} {_machine()} {os.getpid()} {start_of(os.getpid())}"
         run += f" {_CLUSTER}" if cluster else ""
         _write(lock, {"run": run, **_holder()})
         _wait_for_jobs(folder / "jobs.lock", cluster)
         remove_leavings("results")
-        remove_dead(tempfile.gettempdir(), "branchcrush-")
+        remove_finished()
+        remove_dead_links()
         os.environ[_VARIABLE] = run
         try:
             with _interrupt_ends_jobs(lock):
@@ -98,7 +99,7 @@ def join_run() -> None:
         end_with_parent()
         if not _is_of(os.getppid(), run):
             os.kill(os.getpid(), signal.SIGKILL)
-    folder = Path(_FOLDER).resolve()
+    folder = Path(_FOLDER).absolute()
     # Held until this process ends: no other run begins before.
     locked(folder / "jobs.lock", shared=True, wait=True)
     if not _lives(run, folder / "run.lock"):

@@ -14,6 +14,7 @@ _NO_RESULT = {
     "records",
     "records_words",
     "claims",
+    "checkpoints",
     "files.digests",
     "files.intact",
     "files.locks",

@@ -37,6 +37,7 @@ CONFIG = "".join(
 CERTIFICATES = ("results/lone/jamming.csv", "results/paired/jamming.csv")
 # Without that on two ranks, which wait for each other where the machine has other work.
 PACKINGS = tuple(f"results/lone/seed_{seed}/path.csv" for seed in (1, 2, 3))
+_CLAIM = re.compile(r"results\+(\w+)\+(seed_\d+)\+made\.json")
 _ASKED = ("-o", "%Z|%k|%C|%m|%l")
 
 
@@ -72,6 +73,7 @@ class ClusterStudy(Study):
             *("--latency-wait", "5"),
         ]
         self.environment |= cluster.environment
+        self.claims = self.folder / ".branchcrush" / "claims"
         self.most_at_once = {}
 
     def output(self):
@@ -122,11 +124,25 @@ class ClusterStudy(Study):
         yield from self.folder.glob("results/*/seed_*/made.json")
 
     def at_work(self):
-        """Return the packings that are compressed just now, as sample/seed_1."""
-        folders = self.folder.glob("results/*/seed_*/.compress-*")
+        """Return the packings that jobs claim just now, as sample/seed_1."""
+        names = {claim: _CLAIM.fullmatch(claim.name) for claim in self.claims.glob("*")}
         return sorted(
-            str(path.parent.relative_to(self.folder / "results")) for path in folders if _held(path)
+            "/".join(name.groups()) for claim, name in names.items() if name and _held(claim)
         )
+
+    def working(self):
+        """Return the packing of each process that has what LAMMPS writes of one open."""
+        kept = f"{self.folder}/.branchcrush/checkpoints/results/"
+        names = []
+        for process in self.processes():
+            # It may end meanwhile.
+            with contextlib.suppress(OSError):
+                opened = {os.readlink(file) for file in Path(f"/proc/{process}/fd").iterdir()}
+                parts = (
+                    file.removeprefix(kept).split("/") for file in opened if file.startswith(kept)
+                )
+                names += {"/".join(part[:2]) for part in parts}
+        return names
 
     def frozen(self, number):
         """Wait until so many packings are at work, and stop the process of each as it is seen.
@@ -147,9 +163,7 @@ class ClusterStudy(Study):
 
     def _process_of(self, name):
         """Return the process that claims a packing, by its number on this side of the node."""
-        claim = (
-            self.folder / ".branchcrush" / "claims" / f"results/{name}/made.json".replace("/", "+")
-        )
+        claim = self.claims / f"results/{name}/made.json".replace("/", "+")
         with contextlib.suppress(OSError, ValueError):
             number = json.loads(claim.read_text(encoding="utf-8"))["process"]
             for process in self.jobs():
@@ -173,7 +187,7 @@ class ClusterStudy(Study):
 
         def look():
             while not ended.wait(0.02):
-                for name, number in Counter(self.at_work()).items():
+                for name, number in Counter(self.working()).items():
                     self.most_at_once[name] = max(number, self.most_at_once.get(name, 0))
 
         watch = threading.Thread(target=look)
@@ -185,14 +199,14 @@ class ClusterStudy(Study):
             watch.join()
 
 
-def _held(folder):
-    """Return whether the process that made a scratch folder lives: it holds a lock on it."""
+def _held(claim):
+    """Return whether the process that made a claim lives: it holds a lock on it."""
     try:
-        file = os.open(folder, os.O_RDONLY)
+        file = os.open(claim, os.O_RDONLY)
     except OSError:
         return False
     try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except BlockingIOError:
         return True
     finally:

@@ -1,9 +1,12 @@
 """Crushing between walls, with Hertz contacts, on ranks, there and back, and how a run ends."""
 
+import re
+
 import numpy as np
 import pytest
 
 from branchcrush.errors import SimulationError
+from branchcrush.lammps import crush
 from tests.physics.crushings import GLASS, LIMIT, loose, rules, stored_in, variables
 
 
@@ -73,6 +76,16 @@ def test_a_run_ends_validly_at_a_stress(crushed):
     out = crushed(packing, variables(packing), rules(np.inf, largest_mean_stress=1e5))
     assert "largest_mean_stress" in out.path["stopped"][-1]
     assert np.all(out.path["mean_stress_Pa"][:-1] < 1e5)
+
+
+def test_a_run_that_cannot_go_on_says_why_and_where_as_a_compression_does(crushed, monkeypatch):
+    monkeypatch.setattr(crush, "LARGEST_RELAXATION", 3000)
+    packing = loose()
+    # No packing that carries load comes to rest so far.
+    out = crushed(packing, variables(packing, state_tolerance=1e-18), rules(np.inf))
+    reason = r"stopped at an edge of 0\.00\d+ m: not at rest after 3000 force evaluations: "
+    assert re.match(reason, out.path["stopped"][-1])
+    assert 2 <= len(out.path["state"]) < 7
 
 
 def test_a_packing_that_is_crushed_by_the_approach_says_so(crushed):

@@ -1,11 +1,16 @@
 """How a job ends: what stands in its log, on the screen, and in its exit code."""
 
 import errno
+import os
+import tempfile
 
 import pytest
 
+from branchcrush.claims import CLAIMS, claimed
 from branchcrush.errors import ConfigError, GradingError
+from branchcrush.files.scratch import scratch_folder
 from branchcrush.jobs import job
+from branchcrush.lammps import links
 
 
 def test_job_that_ends_well_leaves_its_log_alone(tmp_path, capsys):
@@ -98,3 +103,62 @@ def test_a_file_in_the_place_of_the_folder_of_logs_hides_no_message(tmp_path, ca
     (tmp_path / "logs").touch()
     ended(tmp_path / "logs" / "fit.log", GradingError("κ is wrong"))
     assert "so it is told here: branchcrush: κ is wrong" in capsys.readouterr().err
+
+
+def a_file(claims):
+    claims.parent.mkdir()
+    claims.touch()
+
+
+def links_in_a_ring(claims):
+    claims.parent.symlink_to(claims.parent.name)
+
+
+@pytest.mark.parametrize(
+    ("place", "result", "words"),
+    [
+        (a_file, "made.json", "claims: move the file that lies in the place of a folder"),
+        (links_in_a_ring, "made.json", "Too many levels of symbolic links, .branchcrush/claims"),
+        (None, "long" * 100, "File name too long, .branchcrush/claims/longlong"),
+    ],
+)
+def test_a_claim_that_cannot_be_had_is_one_line(
+    tmp_path, monkeypatch, capsys, place, result, words
+):
+    monkeypatch.chdir(tmp_path)
+    if place:
+        place(CLAIMS)
+    with pytest.raises(SystemExit) as ended, job("fit.log"), claimed(result):
+        pass
+    assert ended.value.code == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert words in line and line.endswith(", then repeat the command")
+
+
+def test_a_run_that_cannot_be_joined_is_one_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("BRANCHCRUSH_RUN", "1 here 1 1 cluster")
+    (tmp_path / ".branchcrush").symlink_to(".branchcrush")
+    with pytest.raises(SystemExit) as ended, job("fit.log"):
+        pass
+    assert ended.value.code == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("branchcrush: Too many levels of symbolic links, ")
+    assert line.endswith(
+        ": remove the symbolic links that lead to each other, then repeat the command"
+    )
+    assert (tmp_path / "fit.log").read_text() == f"{line}\n"
+
+
+def test_scratch_of_dead_jobs_of_this_machine_goes_wherever_it_lies(tmp_path, monkeypatch):
+    given, other = tmp_path / "a b", tmp_path / "plain"
+    monkeypatch.setattr(tempfile, "tempdir", str(given))
+    monkeypatch.setattr(links, "_PLACES", (str(other),))
+    dead = [folder / f"branchcrush-{os.uname().nodename}-dead" for folder in (given, other)]
+    others = [other / "branchcrush-another-machine-1", other / "theirs"]
+    for folder in (*dead, *others):
+        folder.mkdir(parents=True)
+        (folder / "inputs").touch()
+    with scratch_folder("branchcrush-", other) as alive, job(tmp_path / "fit.log"):
+        assert [path for path in dead if path.exists()] == []
+        assert sorted(other.iterdir()) == sorted([alive, *others])

@@ -2,11 +2,17 @@
 
 import json
 import os
+import shutil
+import threading
+import time
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+from branchcrush.checkpoints import checkpoint_of
+from branchcrush.claims import claimed, standing_claims
 from branchcrush.errors import FitError
 from branchcrush.files.made import read_record
 from branchcrush.records import (
@@ -62,6 +68,83 @@ def test_a_job_that_fails_leaves_no_record():
     with pytest.raises(SystemExit), recorded_job(as_script(fit())):
         raise FitError("no load")
     assert read_record(RECORD) is None
+
+
+def nothing():
+    pass
+
+
+@pytest.mark.parametrize(
+    ("meanwhile", "again"),
+    [
+        (nothing, False),
+        # The first died without a record, another input is there by now, or a result went.
+        (Path(RECORD).unlink, True),
+        (partial(Path("sieve.csv").write_text, "abd"), True),
+        (Path("results/sand/fit.csv").unlink, True),
+        (partial(shutil.rmtree, "results/sand"), True),
+    ],
+)
+def test_who_waited_for_results_that_are_there_by_then_makes_nothing(capsys, meanwhile, again):
+    made = fit(inputs=["sieve.csv"])
+    do(made)
+    worked, ended = [], []
+
+    def second():
+        try:
+            with recorded_job(as_script(made)):
+                worked.append(True)
+        except SystemExit as end:
+            ended.append(end.code)
+
+    another = threading.Thread(target=second)
+    with claimed(RECORD):
+        another.start()
+        while "branchcrush: waits for results" not in capsys.readouterr().err:
+            time.sleep(0.01)
+        assert (worked, ended) == ([], [])
+        meanwhile()
+    another.join()
+    assert bool(worked) == again
+    # The job did nothing, and where a result is gone by its end there is no record.
+    gone = not Path("results/sand/fit.csv").exists()
+    assert ended == ([] if again and not gone else [int(gone)])
+
+
+def test_a_record_is_never_of_a_result_that_is_gone(capsys):
+    Path(RECORD).unlink()
+    with pytest.raises(SystemExit) as ended, recorded_job(as_script(fit())):
+        Path("results/sand/fit.json").unlink()
+    assert ended.value.code == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "results/sand/fit.json was removed" in line and "repeat the command" in line
+    assert read_record(RECORD) is None
+
+
+def kept(made):
+    """Return a file among what a job keeps to go on from, as if it had been killed before."""
+    file = checkpoint_of(made.output.record) / "state.kept"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text("12")
+    return file
+
+
+def test_what_a_job_goes_on_from_is_gone_with_its_record_before_another_may_begin(monkeypatch):
+    made = fit()
+    state, other = kept(made), kept(walk())
+    with pytest.raises(SystemExit), recorded_job(as_script(made)):
+        raise FitError("no load")
+    assert state.exists()
+    seen = []
+
+    def rmtree(path, remove=shutil.rmtree, **others):
+        seen.append((Path(RECORD).exists(), [claim.result for claim in standing_claims()]))
+        remove(path, **others)
+
+    monkeypatch.setattr(shutil, "rmtree", rmtree)
+    do(made)
+    assert (state.parent.exists(), other.exists()) == (False, True)
+    assert seen == [(True, [RECORD])]
 
 
 @pytest.mark.parametrize("notes", [True, False])

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from branchcrush import runs
+from branchcrush.checkpoints import checkpoint_of
 from branchcrush.errors import RunError
 from branchcrush.runs import one_run
 
@@ -95,6 +96,17 @@ def test_folder_is_free_after_a_run_and_after_an_error(folder):
     with one_run():
         pass
     assert sorted(path.name for path in folder.iterdir()) == [".branchcrush"]
+
+
+def test_what_a_job_kept_goes_with_the_next_run_only_if_its_record_is_there():
+    records = [Path(f"results/sand/{part}/made.json") for part in ("seed_1", "crushing/seed_1")]
+    for record in records:
+        checkpoint_of(record).mkdir(parents=True)
+        (checkpoint_of(record) / "state.kept").write_text("12")
+    records[0].parent.mkdir(parents=True)
+    records[0].write_text("{}")
+    with one_run():
+        assert [checkpoint_of(record).exists() for record in records] == [False, True]
 
 
 def test_a_lock_that_was_removed_by_hand_ends_no_job(run, folder):

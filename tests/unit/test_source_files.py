@@ -26,7 +26,7 @@ ROOMS = sorted(file.parent.name for file in PACKAGE.glob("*/__init__.py"))
 PURE = ("branches", "crushing", "energy", "forces", "gradings", "loading", "packings", "samples")
 PURE += ("statistics",)
 # How a job reports, and what it notes of itself.
-REPORTS = {"jobs", "records", "records_words", "claims"}
+REPORTS = {"jobs", "records", "records_words", "claims", "checkpoints"}
 REPORTS |= {"files.digests", "files.intact", "files.locks", "files.made"}
 # Besides the pure ones, of what the jobs of the seeds load: many are started.
 LEAN = ("config.build", "files.seeds", "lammps.compression")

@@ -133,7 +133,10 @@ def test_a_crushing_killed_in_the_middle_goes_on_to_the_same_bytes(breaking):
     folder = breaking.folder / f"results/breaking/crushing/seed_{SEED}"
     before = digests(folder)
     (folder / "path.csv").unlink()
-    kept = breaking.folder / f".branchcrush/checkpoints/results/breaking/crushing/seed_{SEED}"
+    kept = (
+        breaking.folder
+        / f".branchcrush/checkpoints/results/breaking/crushing/seed_{SEED}/made.json"
+    )
     with started(breaking, TARGET):
         wait_until((kept / "account_3.kept").exists)
     assert not (folder / "path.csv").exists()
@@ -153,7 +156,8 @@ def test_a_crushing_killed_in_the_middle_goes_on_to_the_same_bytes(breaking):
 
 def test_a_compression_killed_in_the_middle_goes_on_to_the_same_bytes(breaking, tmp_path):
     results = f"results/breaking/seed_{SEED}"
-    folder, kept = breaking.folder / results, breaking.folder / ".branchcrush/checkpoints" / results
+    folder = breaking.folder / results
+    kept = breaking.folder / ".branchcrush/checkpoints" / results / "made.json"
     before, record = digests(folder), read_json(folder / "made.json")
     packing = read_packing(folder / "packing.npz")
     variables = sample_variables(sample_of(record["params"]["sample"]), packing[1])
@@ -168,7 +172,9 @@ def test_a_compression_killed_in_the_middle_goes_on_to_the_same_bytes(breaking, 
             checkpoint=kept,
             code=record["code"],
         )
-    (folder / "path.csv").unlink()
+    # As Snakemake does before the job.
+    for name in ("path.csv", "made.json"):
+        (folder / name).unlink()
     run = breaking.snakemake(f"{results}/path.csv", cores=1)
     assert run.returncode == 0, run.stdout + run.stderr
     log = (breaking.folder / f"logs/breaking/seed_{SEED}/compression.log").read_text()

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
+from branchcrush.checkpoints import checkpoint_of
 from branchcrush.config.sample import sample_of
 from branchcrush.files.tables import provenance, write_packing, write_table
-from branchcrush.jobs import checkpoint_of
 from branchcrush.lammps.compression import compress, placed_packing, sample_variables
 from branchcrush.lammps.files import write_data_file
 from branchcrush.records import recorded_job
 
 folder = Path(snakemake.output.path).parent
-with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
+with recorded_job(snakemake) as beside:
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     origin = provenance(sample=name, seed=seed, ranks=ranks, config=params.sample)
@@ -28,7 +28,7 @@ with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
         log=snakemake.log[0],
         ranks=ranks,
         keep_dumps=params.keep_dumps,
-        checkpoint=checkpoint,
+        checkpoint=checkpoint_of(output.record),
         code=params.code,
     )
     beside += map(str, folder.glob("*.dump.gz"))

@@ -2,15 +2,15 @@
 
 from pathlib import Path
 
+from branchcrush.checkpoints import checkpoint_of
 from branchcrush.config.sample import breakage_of, sample_of
 from branchcrush.files.tables import provenance, read_packing, write_table
-from branchcrush.jobs import checkpoint_of
 from branchcrush.lammps.compression import sample_variables
 from branchcrush.lammps.crush import crush
 from branchcrush.records import recorded_job
 
 folder = Path(snakemake.output.path).parent
-with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
+with recorded_job(snakemake) as beside:
     params, output, ranks = snakemake.params, snakemake.output, snakemake.threads
     name, seed = snakemake.wildcards.sample, int(snakemake.wildcards.seed)
     packing = read_packing(snakemake.input.packing)
@@ -24,7 +24,7 @@ with checkpoint_of(folder) as checkpoint, recorded_job(snakemake) as beside:
         log=snakemake.log[0],
         ranks=ranks,
         keep_dumps=params.keep_dumps,
-        checkpoint=checkpoint,
+        checkpoint=checkpoint_of(output.record),
         code=params.code,
     )
     beside += map(str, folder.glob("*.dump.gz"))

@@ -64,6 +64,8 @@ def _folders(samples: Mapping[str, Sequence[int]], materials: Sequence[str]) -> 
     """Yield the folders that jobs write into, those above first."""
     for name in (".snakemake", ".branchcrush", "results", "logs"):
         yield Path(name)
+    for name in ("claims", "checkpoints"):
+        yield Path(".branchcrush", name)
     for name in ("made", "figures", "figures/findings", "measured", "figures/measured"):
         yield Path("results", name)
     for name, seeds in samples.items():

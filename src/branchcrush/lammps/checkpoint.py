@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from branchcrush import __version__
 from branchcrush.lammps.files import write_data_file
 from branchcrush.lammps.kept import Damaged, read_kept, write_kept
+from branchcrush.lammps.library import lammps_version
 from branchcrush.lammps.session import Session
 
 # What LAMMPS appends to, state after state.
@@ -33,6 +34,8 @@ _SCALARS = (
 )  # fmt: skip
 # A state that took less processor time is not kept: to keep it takes a millisecond or two [s].
 LEAST_SECONDS = 0.1
+# What the last digits of a path depend on.
+_PACKAGES = ("lammps", "mpi4py", "mpich", "numpy", "scipy")
 _AT_ONCE = 2**20  # [bytes]
 
 
@@ -76,7 +79,8 @@ def run_key(*parts: Any) -> str:
     False
     """
     digest = hashlib.sha256()
-    for part in (__version__, _lammps(), *parts):
+    versions = [__version__, lammps_version(), *map(_version, _PACKAGES)]
+    for part in (versions, *parts):
         if isinstance(part, np.ndarray):
             digest.update(f"{part.dtype} {part.shape} ".encode() + part.tobytes())
         else:
@@ -224,9 +228,9 @@ class Checkpoint:
         return start, checksum
 
 
-def _lammps():
+def _version(name):
     try:
-        return version("lammps")
+        return version(name)
     except PackageNotFoundError:  # one that was built for this machine
         return None
 

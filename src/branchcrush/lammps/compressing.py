@@ -5,9 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from branchcrush.lammps.checkpoint import Checkpoint
-from branchcrush.lammps.leading import Ended, led
-from branchcrush.lammps.run import why_stopped
-from branchcrush.lammps.session import Session
+from branchcrush.lammps.leading import led
+from branchcrush.lammps.session import Ended, Session
 
 
 class Compressing:
@@ -26,11 +25,11 @@ class Compressing:
 
     def begin(self) -> None:
         """Approach, to where strain steps begin: states 0 and 1."""
-        self._include("begin")
+        self.session.include("begin")
 
     def load(self) -> None:
         """Go to the next target, and save a state there."""
-        self._include("load")
+        self.session.include("load")
 
     def keep(self, targets: int) -> None:
         """Keep the state that is reached with some number of targets."""
@@ -38,11 +37,6 @@ class Compressing:
 
     def judge(self) -> None:
         """No state asks for an end."""
-
-    def _include(self, name):
-        self.session.include(name)
-        if why := why_stopped(self.session.lammps):
-            raise Ended(why)
 
 
 def compression_task(lammps: Any, payload: Mapping[str, Any]) -> str:

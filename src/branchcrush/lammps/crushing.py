@@ -11,10 +11,10 @@ from branchcrush.breakage.criterion import largest_force
 from branchcrush.breakage.grains import Grains, exchange, first_grains
 from branchcrush.breakage.rules import Breakage
 from branchcrush.errors import SimulationError
-from branchcrush.lammps.leading import Ended, led
+from branchcrush.lammps.leading import led
 from branchcrush.lammps.neighbours import neighbour_settings
 from branchcrush.lammps.progress import Progress
-from branchcrush.lammps.session import Session
+from branchcrush.lammps.session import Ended, Session
 from branchcrush.lammps.straining import Strained
 from branchcrush.loading.states import force_floor
 from branchcrush.packings.geometry import solid_volume
@@ -50,8 +50,6 @@ class Crushing(Strained):
         """Approach, to where strain steps begin: states 0 and 1."""
         session = self.session
         session.include("begin")
-        if session.failure:
-            raise Ended(session.failure)
         self._look()
         overloaded = int((self.overload >= 1.0).sum())
         if overloaded:

@@ -7,10 +7,6 @@ from branchcrush.lammps.checkpoint import Checkpoint, Saved
 from branchcrush.lammps.session import Session
 
 
-class Ended(Exception):
-    """A run ends before its last target, validly: the reason."""
-
-
 class Run(Protocol):
     """A run that `led` leads from state to state."""
 
@@ -56,8 +52,6 @@ def led(
     saved, run, done = checkpoint.saved(), None, 0
     if saved is None:
         session.include("setup")
-        if session.failure:
-            raise Ended(session.failure)
         run = begun()
         run.keep(0)
     else:

