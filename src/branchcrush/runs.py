@@ -59,7 +59,8 @@ def one_run(*, cluster: bool = False) -> Iterator[None]:
 
     Examples
     --------
-    >>>     >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), one_run():
     ...     with one_run():
     ...         pass
     Traceback (most recent call last):
