@@ -66,9 +66,9 @@ def write_crate(folder: str | PathLike[str], licence: str = "") -> Path:
             "branchcrush[crate]"
         ) from None
     found = verify(folder)
-    if found.faults:
+    if number := len(found.faults):
         raise ResultsError(
-            f"{found.faults[0]} ({len(found.faults)} faults; branchcrush verify lists all)"
+            f"{found.faults[0]} ({number} fault{'s' * (number > 1)}; branchcrush verify lists all)"
         )
     if not (found.folder / "datapackage.json").is_file():
         raise ResultsError(f"{found.folder} is of a study that has not been run to its end: run it")
