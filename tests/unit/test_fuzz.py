@@ -4,12 +4,14 @@
 and reduces what it finds.
 """
 
+import signal
 import tempfile
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from benchmarks import fuzz
 from benchmarks.fuzz import outcome
 from benchmarks.fuzz_readers import readers
 from benchmarks.mutations import mutated
@@ -33,3 +35,14 @@ def test_a_damaged_file_is_read_or_refused_in_words(kind, data):
     with tempfile.TemporaryDirectory() as folder:
         found, fault = outcome(name, content, folder)
     assert (found == "fault", fault) == (False, "")
+
+
+@pytest.mark.parametrize("number", [1221, 1786])
+def test_brackets_that_are_never_closed_are_read_once(number, monkeypatch):
+    # A search that begins anew at each of them took more than ten seconds of a processor.
+    before = signal.signal(signal.SIGPROF, fuzz._too_slow)
+    try:
+        _, faults, _, _ = fuzz._read_chunk("compression", 1, number, number + 1)
+    finally:
+        signal.signal(signal.SIGPROF, before)
+    assert faults == []

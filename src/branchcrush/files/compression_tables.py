@@ -171,7 +171,7 @@ def _units(text: str) -> set[str]:
 
 def _units_in_brackets(text: str) -> set[str]:
     """Return the units of a title, which speaks of more than stresses."""
-    return set().union(*(_units(part) for part in re.findall(r"[\[(]([^\])]*)[\])]", text)))
+    return set().union(*(_units(part) for part in re.findall(r"[\[(]([^][()]*)[\])]", text)))
 
 
 def _values_said(text: str) -> str | None:

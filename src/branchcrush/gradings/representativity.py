@@ -72,7 +72,8 @@ def representativity(grading: Grading, grains: int, solid_fraction: float) -> Re
     >>> few.verdict, few.grains_needed > 1_000_000
     ('refuse', True)
     """
-    coarse_share = _share_from(grading, grading.mass_ppf(1.0 - _COARSE_SHARE))
+    # Of a grading that is narrower than rounding no grain is coarser: it has one size.
+    coarse_share = _share_from(grading, grading.mass_ppf(1.0 - _COARSE_SHARE)) or _COARSE_SHARE
     diameter = 2.0 * float(grading.mass_ppf(_MASS_OF_LARGEST))
     bulk = UNIT_SPHERE * grading.moment(3) / solid_fraction
     edge = float(np.cbrt(grains * bulk))

@@ -177,3 +177,9 @@ def test_report_warns_unless_the_number_is_accepted():
         for standing in (enough, few)
     ]
     assert warnings == [[], [few.message]]
+
+
+def test_a_grading_narrower_than_rounding_is_of_one_size():
+    found = representativity(lognormal(1e-4, 1.0 + 2.3e-16, 5e-5, 1.8e-4, "mass"), 300, 0.66)
+    assert found.coarse_grains == pytest.approx(30.0)
+    assert 100 < found.grains_needed < 1000
