@@ -179,7 +179,10 @@ def test_report_warns_unless_the_number_is_accepted():
     assert warnings == [[], [few.message]]
 
 
-def test_a_grading_narrower_than_rounding_is_of_one_size():
-    found = representativity(lognormal(1e-4, 1.0 + 2.3e-16, 5e-5, 1.8e-4, "mass"), 300, 0.66)
-    assert found.coarse_grains == pytest.approx(30.0)
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("median", [3.14e-5, 3.17e-5, 4.33e-5, 5e-5])
+def test_a_grading_as_narrow_as_rounding_needs_few_grains(median):
+    width = 1.0 + 2.0**-52
+    found = representativity(lognormal(median, width, 2.5e-5, 9e-5, "mass"), 1500, 0.69)
+    assert found.coarse_grains >= 150
     assert 100 < found.grains_needed < 1000
