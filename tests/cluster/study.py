@@ -147,16 +147,19 @@ class ClusterStudy(Study):
     def frozen(self, number):
         """Wait until so many packings are at work, and stop the process of each as it is seen.
 
-        Returns their processes by their names, as `at_work`.
+        Returns their processes by their names, as `at_work`: no more than asked for, however
+        many begin at once.
         """
         stopped = {}
 
         def all_seen():
             for name in self.at_work():
+                if len(stopped) == number:
+                    break
                 if name not in stopped and (process := self._process_of(name)):
                     os.kill(process, signal.SIGSTOP)
                     stopped[name] = process
-            return len(stopped) >= number
+            return len(stopped) == number
 
         self.wait_for(all_seen, f"{number} packings at work")
         return stopped
