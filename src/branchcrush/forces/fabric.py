@@ -242,8 +242,13 @@ def orientation_band(branches: int, sectors: int, confidence: float = 0.95) -> t
     ----------
     Rothenburg and Bathurst (1989), Geotechnique 39, 601, for roses of contact orientation.
     """
-    from scipy.stats import binom  # slow to import, and few jobs need it
+    # Not of scipy.stats, which takes longer to import than a rose to draw.
+    from scipy.special import bdtr, bdtrik
 
-    ends = binom.ppf([0.5 - confidence / 2.0, 0.5 + confidence / 2.0], branches, 1.0 / sectors)
+    share = np.array([0.5 - confidence / 2.0, 0.5 + confidence / 2.0])
+    above = np.ceil(bdtrik(share, branches, 1.0 / sectors))
+    # The inverse of the distribution is of real numbers: where rounding took it to the next one.
+    below = np.maximum(above - 1.0, 0.0)
+    ends = np.where(bdtr(below, branches, 1.0 / sectors) >= share, below, above)
     low, high = ends * sectors / branches
     return float(low), float(high)

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from branchcrush.files.tables import Table
+from branchcrush.plotting.saving import save
 
 # Jobs draw into files alone. Who drew before, or a notebook, has chosen where figures are shown.
 if "matplotlib.pyplot" not in sys.modules and "MPLBACKEND" not in os.environ:
@@ -59,12 +60,6 @@ STYLE = {
     # The same data give the same bytes.
     "svg.hashsalt": "branchcrush",
 }
-# Of what no file of a figure tells: date and version of the plotting library.
-_UNTOLD: dict[str, dict[str, None]] = {
-    "png": {"Software": None},
-    "svg": {"Date": None, "Creator": None},
-    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
-}
 
 
 def axes(ax: Axes | None = None) -> Axes:
@@ -105,8 +100,7 @@ def figure(
     Parameters
     ----------
     path : path-like
-        A PNG file, beside which the same is written as SVG; or a file of another ending, as
-        .pdf, which is written alone. Its folder is made.
+        As `saving.save` writes it.
     dpi : int
         Dots per inch, of what is no line or letter too.
     size : tuple of float
@@ -138,16 +132,7 @@ def figure(
         )
         yield ax
         letter(drawing)
-        # Laid out here: to lay out, savefig would draw the whole figure once more.
-        drawing.get_layout_engine().execute(drawing)
-        drawing.set_layout_engine("none")
-        path = Path(path)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        for file in (path, path.with_suffix(".svg")) if path.suffix == ".png" else (path,):
-            kind = file.suffix.removeprefix(".")
-            # A PNG a seventh larger than the smallest takes half the time to write.
-            fast = {"pil_kwargs": {"compress_level": 2}} if kind == "png" else {}
-            drawing.savefig(file, dpi=dpi, metadata=_UNTOLD.get(kind), **fast)
+        save(drawing, path, dpi)
         plt.close(drawing)
 
 

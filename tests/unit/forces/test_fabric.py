@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+from scipy.stats import binom
 
 from branchcrush.forces.fabric import (
     chance_range,
@@ -193,3 +194,10 @@ def test_sectors_of_independent_branches_lie_in_the_band_as_often_as_it_says():
     inside = np.mean((counts * 12 / 300 >= low) & (counts * 12 / 300 <= high))
     # Counts are whole numbers, so a little more than 95 % are within.
     assert 0.945 < inside < 0.975
+
+
+def test_the_band_is_the_quantiles_of_the_binomial_distribution():
+    for branches in (1, 2, 7, 300, 4001, 1_000_000):
+        for sectors in (2, 12, 36):
+            ends = binom.ppf([0.025, 0.975], branches, 1.0 / sectors) * sectors / branches
+            assert_allclose(orientation_band(branches, sectors), ends)

@@ -85,6 +85,7 @@ def test_units_are_those_of_the_dictionary(study):
     assert columns.loc["energy_J", "unit"] == "J"
 
 
+@pytest.mark.filterwarnings("ignore:.*lacks columns")
 def test_a_crushed_packing_has_its_own_grains_in_every_state(study, tmp_path):
     ours = study["sand"].seed(7)
     place = tmp_path / "results" / "sand" / "crushing" / "seed_7"
