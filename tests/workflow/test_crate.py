@@ -76,7 +76,6 @@ def test_a_study_that_is_damaged_or_unfinished_is_not_described(crate, tmp_path,
     for path in folder.iterdir():
         path.unlink() if path.is_file() else None
     shutil.rmtree(folder / "made")
-    shutil.rmtree(folder / "figures/findings")
     assert main(["export", str(folder), "--crate"]) == 1
     assert "has not been run to its end" in capsys.readouterr().err
 

@@ -1,11 +1,9 @@
 """What the contact networks of the tiny study give, and the page of all its samples."""
 
 import pytest
-from matplotlib import image
 
 from branchcrush.files.tables import read_json, read_table
 
-FINDINGS = ("exponents", "lengths", "energies", "coordination", "shielding", "forces")
 RIVALS = ["branch_length", "reduced_radius", "both_radii", "grain_size", "length_and_ratio"]
 PREDICTORS = [*RIVALS, "surface"]
 PREDICTIONS = {
@@ -78,6 +76,5 @@ def test_the_findings_are_those_of_the_sample(finished, sample):
     assert row["best_predictor_end"] in RIVALS
     states = read_table(results / "coordination.csv")
     assert set(states["seed_number"]) == {0, 1}
-    for figure in FINDINGS:
-        pixels = image.imread(results / "figures/findings" / f"{figure}.png")[..., :3]
-        assert 0.005 < (pixels.min(axis=-1) < 0.9).mean() < 0.9, figure
+    # Its own figures show all of one sample.
+    assert not (results / "figures/findings").exists()

@@ -70,7 +70,7 @@ def test_a_module_plans_all_that_another_workflow_asks_of_it(parent, prefix):
     assert len(re.findall(f"^rule {prefix}compression:", planned, re.MULTILINE)) == 2
     assert "rule exponents:" in planned
     # What the other workflow asks for, and not all that this one would make.
-    assert f"rule {prefix}findings_figures:" not in planned
+    assert f"rule {prefix}report:" not in planned
     assert re.search(r"^ +input: .*\bsand\.csv$", planned, re.MULTILINE), planned
 
 
@@ -103,7 +103,7 @@ def test_a_module_refuses_a_wrong_configuration_in_the_same_words(parent):
 def test_the_catalogue_finds_a_snakefile_that_plans_the_whole_study(study):
     study.snakefile = ROOT / "workflow" / "Snakefile"
     planned = output_of(study.snakemake("--dry-run"))
-    for rule in ("compression", "comparison", "report", "findings_figures"):
+    for rule in ("compression", "comparison", "report", "fit_figures"):
         assert f"rule {rule}:" in planned
     assert (ROOT / "config" / "README.md").is_file()
     catalogue = (ROOT / ".snakemake-workflow-catalog.yml").read_text(encoding="utf-8")

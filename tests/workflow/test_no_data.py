@@ -97,9 +97,9 @@ def test_the_report_shows_the_reasons_and_the_figures_that_there_are(no_data):
     assert page.count("data:image/png;base64,") == 10 + 6
     assert not re.search(r"\bnan\b|\bNone\b|https?://", said(page))
     assert lost_links(no_data / "report.html") == []
-    for name in ("alike", "loose"):
+    for name, number in (("alike", 18), ("loose", 18), ("findings", 6)):
         figures = list((no_data / "figures" / name).glob("*.png"))
-        assert len(figures) == 18
+        assert len(figures) == number
         for figure in figures:
             assert (image.imread(figure)[..., :3].min(axis=-1) < 0.9).any(), figure
 

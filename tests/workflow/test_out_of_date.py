@@ -158,7 +158,7 @@ def test_a_removed_result_is_planned_with_all_that_follows_and_told_in_one_line(
         "made anew: energy_split of tiny, because its file energy_split.json is missing"
     ]
     rules = {line.split()[1].rstrip(":") for line in shown if line.startswith("rule ")}
-    assert {"energy_split", "verdict", "fit_figures", "report", "findings_figures"} <= rules
+    assert {"energy_split", "verdict", "fit_figures", "report"} <= rules
     assert not {"compression", "certificate", "sharing"} & rules
 
 

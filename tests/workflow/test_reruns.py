@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-PAGE = {"findings_figures", "report"}
-FIGURES = {"packing_figures", "fit_figures", "report"} | PAGE
+PAGE = {"report"}
+FIGURES = {"packing_figures", "fit_figures"} | PAGE
 # Beside whichever key: it writes the whole configuration.
 CONFIG = {"comparison"}
 MODEL = {"thermodynamics", "comparison", "fit_figures", "report"}

@@ -27,7 +27,7 @@ def test_on_a_pipe_a_run_is_a_line_for_each_job_and_its_closing_lines(finished):
     for name in ("tiny seed 3", "tiny seed 5", "tiny-refined seed 3"):
         (line,) = (end for end in ends if end.startswith(f"{name}: ") and ", done in " in end)
         assert re.match(rf"{name}: state 13 of 13, phi 0\.741, \d\d\.\d MPa, done in ", line)
-    for name in ("energy split of tiny", "report", "findings figures"):
+    for name in ("energy split of tiny", "report", "packing figures of tiny"):
         assert len([end for end in ends if end.startswith(f"{name} done (")]) == 1
     closing = closing_lines(finished)
     assert "Finished in " in lines[-len(closing) - 1]

@@ -43,6 +43,8 @@ REPORT, TOGETHER = (
 )
 
 FINDINGS = ["exponents", "lengths", "energies", "coordination", "shielding", "forces"]
+# Samples beside each other: the figures of one sample alone show all of it.
+TOGETHER_FIGURES = FINDINGS if len(SAMPLES) > 1 else []
 
 
 rule packing_figures:
@@ -147,7 +149,7 @@ rule report:
             name: expand(f"results/figures/{{sample}}/{name}.png", sample=SAMPLES)
             for name in FIGURES
         },
-        **{f"findings_{name}": f"results/figures/findings/{name}.png" for name in FINDINGS},
+        **{f"findings_{name}": f"results/figures/findings/{name}.png" for name in TOGETHER_FIGURES},
         rows="results/findings.csv",
         fits=expand("results/{sample}/energy_split.json", sample=SAMPLES),
         summaries=expand("results/{sample}/thermodynamics.json", sample=SAMPLES),
@@ -169,7 +171,7 @@ rule report:
         glossary=GLOSSARY,
         samples=SAMPLES,
         figures=FIGURES,
-        findings=FINDINGS,
+        findings=TOGETHER_FIGURES,
         measured=bool(MEASURED),
     script:
         "../scripts/report.py"

@@ -45,6 +45,8 @@ _OF_BREAKING = (
 _OF_READ = ("read_packing", "read_radii")
 # What a study may lack without lacking anything.
 OF_SOME_SAMPLES = _OF_BREAKING + _OF_READ
+# Of samples beside each other; of one alone only where that is asked for.
+_OF_SEVERAL = "findings_figures"
 _OF_COMPRESSED = "<sample>/seed_<seed>/packing.data"
 # Of materials that a laboratory measured; the second of those with a compression curve.
 _OF_MATERIALS = ("measured", "measured_resistance", "measured_page")
@@ -96,6 +98,8 @@ def data_package(
     resources = []
     for file in result_files():
         if file.rule in _LEFT_OUT or file.path in _LEFT_OUT or file.path.endswith(_DUMP):
+            continue
+        if file.rule == _OF_SEVERAL and len(samples) < 2:
             continue
         if file.rule in _OF_MATERIALS:
             paths = _paths_of_materials(file, measured or {})

@@ -14,6 +14,15 @@ PACKAGE = data_package(
 BY_PATH = {resource["path"]: resource for resource in PACKAGE["resources"]}
 
 
+def test_figures_of_samples_beside_each_other_are_of_several_samples():
+    def together(samples):
+        resources = data_package(samples, {})["resources"]
+        return [one["path"] for one in resources if one["path"].startswith("figures/findings/")]
+
+    assert together({"sand": [1]}) == []
+    assert len(together({"sand": [1], "silt": [1]})) == 12
+
+
 def test_every_sample_and_seed_has_its_files_and_names_are_unique():
     packings = [path for path in BY_PATH if path.endswith("/path.csv") and "crushing" not in path]
     assert packings == [
