@@ -271,3 +271,30 @@ def test_nothing_moves_in_a_saved_state(packing):
     path = packing[0].path
     loaded = path[path["carries_load"]]
     assert (loaded["inertial_number"] < 1e-4).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_a_state_goes_on_until_it_hardly_moves(
+    boundary, law, random_grains, compressed, even_edges, tmp_path
+):
+    packing = random_grains(60, 2, periodic=boundary == "periodic")
+    edges = even_edges(0.66 * packing[2], 0.60 * packing[2], steps=12, states=4)
+
+    def inertial_numbers(tolerance):
+        run = compressed(
+            packing,
+            tmp_path / f"{tolerance}",
+            boundary=boundary,
+            law=law,
+            state_tolerance=1e-5,
+            inertial_tolerance=tolerance,
+            **edges,
+        )
+        loaded = run.path[run.path["carries_load"]]
+        assert (loaded["unbalanced_force_ratio"] <= 1e-5).all()
+        return loaded["inertial_number"]
+
+    # So far forces alone bring it to rest.
+    assert inertial_numbers(1.0).max() > 1e-7
+    assert inertial_numbers(1e-8).max() <= 1e-8

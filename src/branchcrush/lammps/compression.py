@@ -22,6 +22,7 @@ from branchcrush.lammps.workplace import keep, run_led, workplace
 from branchcrush.loading.sample import Sample
 from branchcrush.loading.states import force_floor, stress_floor
 from branchcrush.loading.targets import (
+    INERTIAL_TOLERANCE,
     STATE_TOLERANCES,
     STEP_FORCE_EVALUATIONS,
     STEP_UNBALANCED_FORCE_RATIO,
@@ -109,6 +110,7 @@ def compression_variables(
         "step_tolerance": STEP_UNBALANCED_FORCE_RATIO[control],
         "step_evaluations": STEP_FORCE_EVALUATIONS,
         "state_tolerance": float(state_tolerance),
+        "inertial_tolerance": INERTIAL_TOLERANCE,
         "force_floor": force_floor(radii, law),
         "largest_radius": largest,
         **neighbour_settings(radii, approach_edge),

@@ -14,6 +14,8 @@ from branchcrush.packings.geometry import cube_edge
 # contact force of a saved state [-]. docs/quality.md tells what each is good for, measured.
 STRAIN_STEPS = {"draft": 6.8e-3, "standard": 1.7e-3, "fine": 4.25e-4}
 STATE_TOLERANCES = {"draft": 1.0e-6, "standard": 1.0e-6, "fine": 1.0e-7}
+# Of a saved state that carries load, whatever the quality [-].
+INERTIAL_TOLERANCE = 1.0e-4
 # Mean net force over mean contact force [-], whatever the quality, of a strain step on the way to
 # an edge, or to a stress, which must be told from the next step's.
 STEP_UNBALANCED_FORCE_RATIO = {"edge": 3.0e-2, "stress": 5.0e-3}

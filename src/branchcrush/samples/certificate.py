@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike
 from branchcrush.errors import FitError
 from branchcrush.loading.jamming import jamming_point
 from branchcrush.loading.states import stress_floor
-from branchcrush.loading.targets import STEP_UNBALANCED_FORCE_RATIO
+from branchcrush.loading.targets import INERTIAL_TOLERANCE, STEP_UNBALANCED_FORCE_RATIO
 from branchcrush.packings.contact_laws import OVERLAP_FLAG, HertzContact, LinearContact
 from branchcrush.samples.ensemble import end_of_loading
 
 # Largest value of each measure in a certified state.
 LIMITS = {
     "unbalanced_force_ratio": 1e-6,
-    "inertial_number": 1e-4,
+    "inertial_number": INERTIAL_TOLERANCE,
     "stress_identity_error": 1e-6,
     "contact_law_error": 1e-9,
     "energy_excess": 1e-4,
