@@ -81,6 +81,7 @@ findings: $(READY) ## what the energy of a branch depends on, in five gradings: 
 	cp studies/energy_split/results/findings.csv studies/energy_split/results/exponents.csv docs/results
 	for figure in exponents lengths energies coordination shielding forces; do \
 	  $(SHRINK) studies/energy_split/results/figures/findings/$$figure.png docs/figures/findings_$$figure.png; done
+	$(BIN)/python studies/energy_split/compare.py
 	$(MADE) > docs/results/findings_made.txt
 
 mixing: $(READY) ## which forms of the crushing model hold for mixtures of gradings: docs/mixing.md, an hour on 2 cores

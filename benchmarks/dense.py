@@ -43,7 +43,7 @@ label strain
 variable half string $(lx*0.9995/2:%.17g)
 include ${inputs}/mod.cell
 include ${inputs}/mod.mass
-variable end equal $(step+v_evaluations)
+variable end equal $(step+v_counted)
 label relax
 if "${boundary} == walls" then "include ${inputs}/mod.near"
 run $(ternary(v_end-step<v_longest_run,v_end-step,v_longest_run)) pre no post no
@@ -179,7 +179,7 @@ def evaluations_cost(positions, radii, edge, settings, evaluations, boundary, in
         try:
             run.file(str(scratch / "head"))
             run.commands_list(["run 0 post no", f"include {scratch}/inputs/mod.mass"])
-            run.commands_list([f"variable evaluations equal {evaluations // 3}"])
+            run.commands_list([f"variable counted equal {evaluations // 3}"])
             run.commands_list(["variable lists equal 0"])
             first, start = run.extract_global("ntimestep"), time.process_time()
             run.file(str(scratch / "loop"))

@@ -27,7 +27,7 @@ _BEFORE = """
 variable failed equal 0
 variable failure string none
 variable edge string $(lx)
-variable evaluations equal {evaluations}
+variable counted equal {evaluations}
 variable lists equal 0
 run 0 post no
 include ${{inputs}}/mod.mass

@@ -111,7 +111,12 @@ def interval_cell(row: Mapping[str, Any], name: str, digits: int = 2, times: flo
     --------
     >>> interval_cell({"n": 3.0, "n_low": 2.5, "n_high": 3.5}, "n", 1)
     '3.0 (2.5–3.5)'
+    >>> interval_cell({"n": -0.5, "n_low": -1.0, "n_high": -0.1}, "n", 1)
+    '-0.5 (-1.0 to -0.1)'
     """
     ends = [row.get(f"{name}{ending}") for ending in ("", "_low", "_high")]
     told = [number_cell(None if end is None else times * end, digits) for end in ends]
-    return told[0] if "–" in told[1:] else f"{told[0]} ({told[1]}–{told[2]})"
+    if "–" in told[1:]:
+        return told[0]
+    to = " to " if told[1].startswith("-") else "–"
+    return f"{told[0]} ({told[1]}{to}{told[2]})"
