@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from benchmarks import cluster, large
+from benchmarks import cluster, growth, large, mpi
 from benchmarks.before import compared
 from benchmarks.measure import MemoryOfChildren, run_timed
 from benchmarks.sizes import estimate, line_of_size, power_of_size, shares
@@ -114,6 +114,15 @@ def test_a_state_of_a_small_packing_from_placement_on():
     parts = ("approach", "steps", "final")
     assert row["evaluations"] == sum(row[f"{part}_evaluations"] for part in parts)
     assert 0.5 < result["jamming_solid_fraction"] < 0.72
+
+
+def test_an_evaluation_of_a_small_packing_costs_something_on_one_rank_and_two():
+    tiny = {"forms": ("fractal 3",), "base": 100, "evaluations": 30}
+    grown = growth.run(times=(1,), ratios=(), placed=(), repeats=1, **tiny)
+    (row,) = grown["grains"]
+    assert row["ns_per_grain_and_evaluation"] > 0 and row["list_entries"] > 1
+    speed = mpi.run(times=1, pairs=1, seeds=(), **tiny)["speed"]["fractal 3"]
+    assert all(second > 0 for pair in speed["seconds"]["loop"] for second in pair)
 
 
 def test_a_large_study_on_a_cluster_by_hand():
