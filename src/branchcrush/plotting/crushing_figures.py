@@ -182,3 +182,5 @@ def _explain(drawing: Figure, handles: Sequence[Line2D], notes: Sequence[str]) -
     if notes:
         text = "\n".join(textwrap.fill(note, _CHARACTERS) for note in notes)
         drawing.supxlabel(text, x=0.01, ha="left", fontsize=6)
+        # Panels are no lower for many words.
+        drawing.set_figheight(drawing.get_figheight() + (text.count("\n") + 1) * 7.2 / 72.0)

@@ -37,7 +37,8 @@ def draw_who_touches_whom(
     Figure
     """
     lengths = tables["length_predictions"]
-    with figure(path, dpi, *grid(2, 2)) as panels:
+    (width, height), panels_of = grid(2, 2)
+    with figure(path, dpi, (width, 1.2 * height), panels_of) as panels:  # with room for legends
         for ax, plot, *data in (
             (panels[0, 0], branches.plot_contact_numbers, tables["contact_numbers"], numbers),
             (panels[0, 1], branches.plot_pairs, tables["contact_pairs"], numbers),

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from branchcrush.branches.coordination_laws import field, gray, jamming_law, smith
 from branchcrush.files.tables import Table
 from branchcrush.plotting.study import legend_handles
-from branchcrush.plotting.style import FAINT, MODEL, axes
+from branchcrush.plotting.style import FAINT, MODEL, axes, legend_above
 
 
 def plot_coordination(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:
@@ -52,8 +52,7 @@ def plot_coordination(states: Table, styles: Mapping[str, Mapping], ax: Axes | N
     ax.plot([], [], ".", color="black", label=r"$\kappa$, all grains")
     ax.plot([], [], "o", mfc="none", color="black", label=r"$\kappa^*$, without rattlers")
     ax.set(xlabel="void ratio e [-]", ylabel=r"coordination number [-]", ylim=(0, 17))
-    ax.legend(loc="upper right", ncols=2)
-    return ax
+    return legend_above(ax, 2)
 
 
 def plot_jamming_law(states: Table, styles: Mapping[str, Mapping], ax: Axes | None = None) -> Axes:

@@ -5,7 +5,7 @@ import pytest
 from matplotlib import image
 from matplotlib import pyplot as plt
 
-from tests.pictures import is_whole, overlapping_letters
+from tests.pictures import covered_legends, is_whole, overlapping_letters
 
 
 class Reading:
@@ -56,7 +56,10 @@ def drawn(tmp_path):
         figure = function(path, 100, *data)
         assert (image.imread(path)[..., :3].min(axis=-1) < 0.9).any()
         assert is_whole(path)
+        # Last drawn as SVG, with other places in dots.
+        figure.draw_without_rendering()
         assert overlapping_letters(figure) == []
+        assert covered_legends(figure) == []
         for ax in figure.axes:
             # What a panel says is tested; that it has a letter is, in test_style.
             for text in [text for text in ax.texts if text.get_gid() == "letter"]:

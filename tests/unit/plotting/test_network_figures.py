@@ -1,5 +1,6 @@
 """Each figure of the networks: one file, every panel given its table, or the reason why."""
 
+import pandas as pd
 import pytest
 
 from branchcrush.plotting import branches, forces, network_figures, shielding
@@ -22,6 +23,20 @@ def test_every_panel_of_who_touches_whom_has_its_table(drawn, given):
         "plot_distances": ("length_predictions",),
         "plot_mean_lengths": ("length_predictions", 1e-3),
     }
+
+
+def test_the_legend_of_distances_lies_over_no_line(drawn, given):
+    given(branches, "plot_contact_numbers", "plot_pairs", "plot_mean_lengths")
+    # As of the paper's case, over most of two decades.
+    off = [0.52, 0.18, 0.27, 0.035, 0.016, 0.18, 0.013]
+    rows = [
+        {"prediction": name, "solid_fraction_above_jamming": x, "kolmogorov_smirnov": distance}
+        for name, distance in zip(branches.PREDICTIONS, off, strict=True)
+        for x in (0.01, 0.14)
+    ]
+    tables = dict.fromkeys(TOUCHING) | {"length_predictions": pd.DataFrame(rows)}
+    # It looks at the legends of what it has drawn.
+    drawn(network_figures.draw_who_touches_whom, {"end": {}}, tables, 1e-3)
 
 
 def test_every_panel_of_sharing_has_its_table(drawn, given):
