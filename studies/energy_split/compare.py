@@ -1,17 +1,23 @@
-"""The tables of docs/energy_split.md, between its marks: `python studies/energy_split/compare.py`.
+"""The tables of docs/energy_split.md and docs/rods.md: `python studies/energy_split/compare.py`.
 
-Reads docs/results/findings.csv, which `make findings` leaves there.
+Reads docs/results/findings.csv, which `make findings` leaves there, and writes between the marks
+of these pages.
 """
 
 from pathlib import Path
 
 import pandas as pd
 
-from branchcrush.files.blocks import filled, interval_cell, table
+from branchcrush.branches.nodes import grading_nodes
+from branchcrush.config.build import grading_of
+from branchcrush.config.checks import checked_study
+from branchcrush.config.file import config_file_content
+from branchcrush.files.blocks import filled, interval_cell, number_cell, table
 from branchcrush.files.tables import read_table
+from branchcrush.gradings.rods import rod_map
 
 ROOT = Path(__file__).parents[2]
-PAGE, FINDINGS = ROOT / "docs/energy_split.md", ROOT / "docs/results/findings.csv"
+DOCS, CONFIG = ROOT / "docs", Path(__file__).with_name("config.yaml")
 MADE = "by studies/energy_split/compare.py"
 # Of each table the columns of the findings by their titles, and their digits.
 COLUMNS = {
@@ -54,15 +60,29 @@ COLUMNS = {
         "ν of κ\\*": ("jamming_law_exponent", 2),
     },
 }
+RODS = (
+    ("rattlers near jamming", "rattler_fraction_near"),
+    ("by rods", "rods_rattler_fraction_near"),
+    ("by parking", "parking_rattler_fraction"),
+    ("κ near jamming", "coordination_number_near"),
+    ("by rods", "rods_coordination_number_near"),
+    ("by parking", "parking_coordination_number"),
+    ("κ at the end", "coordination_number_end"),
+    ("by rods", "rods_coordination_number_end"),
+)
 RIVALS = ["random_contact", "mean_neighbour", "surface", "self_consistent", "parking", "rods"]
 
 
 def main() -> None:
     """Write the tables between their marks."""
-    findings = read_table(FINDINGS)
-    blocks = {name: told(findings, columns) for name, columns in COLUMNS.items()}
-    page = filled(PAGE.read_text(encoding="utf-8"), blocks | {"counts": counts(findings)}, MADE)
-    PAGE.write_text(page, encoding="utf-8")
+    findings = read_table(DOCS / "results/findings.csv")
+    tables = {name: told(findings, columns) for name, columns in COLUMNS.items()}
+    for name, blocks in (
+        ("energy_split.md", tables | {"counts": counts(findings)}),
+        ("rods.md", {"rods": by_rods(findings)}),
+    ):
+        page = DOCS / name
+        page.write_text(filled(page.read_text(encoding="utf-8"), blocks, MADE), encoding="utf-8")
 
 
 def told(findings: pd.DataFrame, columns: dict[str, tuple[str, int]]) -> list[str]:
@@ -109,6 +129,22 @@ def counts(findings: pd.DataFrame) -> list[str]:
     certified = varied["verdict"].str.startswith("certified")
     rows.append(["certified, with notes or without", "", int(certified.sum())])
     return table([f"of {len(varied)} samples", "near jamming", "at the end"], rows)
+
+
+def by_rods(findings: pd.DataFrame) -> list[str]:
+    """Return the periodic samples of linear contacts beside rods that push, and parking."""
+    samples = checked_study(config_file_content(CONFIG), CONFIG.parent, few_grains=True).samples
+    rows = []
+    for row in findings.to_dict("records"):
+        grading, *of = row["sample"].rsplit("-", 2)
+        if of != ["periodic", "linear"]:
+            continue
+        rods = rod_map(*grading_nodes(grading_of(samples[row["sample"]].settings()["grading"])))
+        jammed = (row["solid_fraction"] - row["distance_at_end"], rods.solid_fraction)
+        cells = [number_cell(number, 3) for number in jammed]
+        cells += [number_cell(row[name]) for _, name in RODS]
+        rows.append([grading, *cells])
+    return table(["grading", "φ_J", "by rods", *(title for title, _ in RODS)], rows)
 
 
 _OVER = "reduced_radius_over_length_{}"
