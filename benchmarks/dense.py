@@ -136,8 +136,18 @@ def replicated(positions, radii, edge, times):
 
 
 def head_of_script(inputs=INPUTS):
-    """Return `in.compress` up to its first run: variables, packing, contacts, what is measured."""
-    return (Path(inputs) / "in.compress").read_text(encoding="utf-8").partition("\nrun ")[0] + "\n"
+    """Return `in.compress` up to its setup: variables, packing, contacts, what is measured.
+
+    Raises
+    ------
+    ValueError
+        When the script has no such line, after which it loads the packing.
+    """
+    script = (Path(inputs) / "in.compress").read_text(encoding="utf-8")
+    head, setup, _ = script.partition("${inputs}/mod.setup\n")
+    if not setup:
+        raise ValueError(f"in.compress of {inputs} has no line that includes mod.setup")
+    return head + setup
 
 
 def evaluations_cost(positions, radii, edge, settings, evaluations, boundary, inputs=INPUTS):

@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from benchmarks import cluster, growth, large, mpi
+from benchmarks import cluster, dense, growth, large, mpi
 from benchmarks.before import compared
 from benchmarks.measure import MemoryOfChildren, run_timed
 from benchmarks.sizes import estimate, line_of_size, power_of_size, shares
@@ -120,7 +120,9 @@ def test_an_evaluation_of_a_small_packing_costs_something_on_one_rank_and_two():
     tiny = {"forms": ("fractal 3",), "base": 100, "evaluations": 30}
     grown = growth.run(times=(1,), ratios=(), placed=(), repeats=1, **tiny)
     (row,) = grown["grains"]
+    # Three strain steps of ten evaluations, and none of a loading: at least one list each.
     assert row["ns_per_grain_and_evaluation"] > 0 and row["list_entries"] > 1
+    assert "jump" not in dense.head_of_script()
     speed = mpi.run(times=1, pairs=1, seeds=(), **tiny)["speed"]["fractal 3"]
     assert all(second > 0 for pair in speed["seconds"]["loop"] for second in pair)
 
