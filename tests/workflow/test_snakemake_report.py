@@ -25,7 +25,7 @@ def results(finished, tmp_path_factory):
 
 def test_every_figure_is_in_the_report_with_words_of_its_own(finished, results):
     figures = sorted(finished.folder.glob("results/figures/*/*.png"))
-    assert len(figures) == 24
+    assert len(figures) == 18
     captions = set()
     for figure in figures:
         entry = results[str(figure.relative_to(finished.folder))]

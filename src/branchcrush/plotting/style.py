@@ -114,6 +114,7 @@ def figure(
     Examples
     --------
     >>> import tempfile
+    >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     with figure(Path(folder) / "new" / "line.png", 50) as ax:
     ...         _ = ax.plot([0, 1], [0, 1])

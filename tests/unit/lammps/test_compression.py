@@ -72,6 +72,7 @@ def test_variables_of_a_loading_to_a_strain():
         "step_tolerance": 3e-2,
         "step_evaluations": 200,
         "state_tolerance": 1e-7,
+        "inertial_tolerance": 1e-4,
         "largest_radius": 1e-3,
         "neighbour_style": "bin",
         "collections": "none",

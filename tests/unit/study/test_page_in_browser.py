@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib import image
+from selenium.webdriver.support.wait import WebDriverWait
 
 from branchcrush.statistics.intervals import Interval
 from tests.unit.study.browser import browser, requests
@@ -124,11 +125,12 @@ def test_table_is_copied_with_tabs(driver, pages):
     see(driver, pages["three"])
     driver.execute_script(
         "document.addEventListener('copy', () => {window.copied = document.activeElement.value});"
-        "document.querySelector('.copy').scrollIntoView({block: 'center'})"
+        "document.querySelector('.copy').scrollIntoView({block: 'center', behavior: 'instant'})"
     )
     # By hand: a browser copies nothing that no one asked for.
     driver.find_element("css selector", ".copy").click()
-    lines = driver.execute_script("return window.copied").split("\n")
+    waited = WebDriverWait(driver, 10).until(lambda at: at.execute_script("return window.copied"))
+    lines = waited.split("\n")
     assert lines[0].startswith("sample\tcertificate\tn and its interval\t")
     assert lines[1].startswith("loose\tnot certified\tnone\t") and len(lines) == 4
 
