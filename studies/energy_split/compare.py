@@ -108,13 +108,20 @@ def cell(row: dict, name: str, digits: int) -> str:
 def counts(findings: pd.DataFrame) -> list[str]:
     """Return in how many samples whose radii vary something holds, near jamming and at the end."""
     varied = findings[findings["curvature_end"].notna()]
+    over, size = "reduced_radius_over_length", "grain_size_over_length"
     rows = []
     for title, holds in (
         ("curvature above 0", lambda at: at("curvature_low") > 0),
         ("curvature below 0", lambda at: at("curvature_high") < 0),
-        ("R\\* explains more than the branch length", lambda at: at(_OVER.format("low")) > 0),
-        ("R\\* explains less than the branch length", lambda at: at(_OVER.format("high")) < 0),
-        ("grain size explains less than the branch length", lambda at: at(_SIZE) < 0),
+        ("R\\* explains more than the branch length", lambda at: at(f"{over}_low") > 0),
+        (
+            "R\\* explains less than the branch length",
+            lambda at: at(f"{over}_high") < 0,
+        ),
+        (
+            "grain size explains less than the branch length",
+            lambda at: at(f"{size}_high") < 0,
+        ),
         ("length and ratio explain most", lambda at: at("best_predictor") == "length_and_ratio"),
     ):
         numbers = [
@@ -123,7 +130,9 @@ def counts(findings: pd.DataFrame) -> list[str]:
         ]
         rows.append([title, *numbers])
     nearest = varied[[f"ks_{name}_near" for name in RIVALS]].idxmin(axis=1)
-    rows.append(["random parking is nearest to the lengths", int((nearest == _PARKING).sum()), ""])
+    rows.append(
+        ["random parking is nearest to the lengths", int((nearest == "ks_parking_near").sum()), ""]
+    )
     tail = varied["force_tail_squared_variation_high"] < 1
     rows.append(["forces above 2⟨F⟩ fall faster than exponentially", "", int(tail.sum())])
     certified = varied["verdict"].str.startswith("certified")
@@ -145,11 +154,6 @@ def by_rods(findings: pd.DataFrame) -> list[str]:
         cells += [number_cell(row[name]) for _, name in RODS]
         rows.append([grading, *cells])
     return table(["grading", "φ_J", "by rods", *(title for title, _ in RODS)], rows)
-
-
-_OVER = "reduced_radius_over_length_{}"
-_SIZE = "grain_size_over_length_high"
-_PARKING = "ks_parking_near"
 
 
 if __name__ == "__main__":
