@@ -1,21 +1,25 @@
 """How time and memory grow with the number of grains, and with the ratio of their sizes."""
 
 import json
+import tempfile
 import time
 from itertools import product
 
 import numpy as np
 
 from benchmarks.dense import (
+    INPUTS,
     LOOSE,
     apart,
     costs_apart,
     dense_packing,
     form_of,
+    packing_variables,
     peak_bytes,
     replicated,
 )
 from branchcrush.gradings.sampling import sampled_radii
+from branchcrush.lammps.compression import compress
 from branchcrush.packings.geometry import cube_edge
 from branchcrush.packings.placement import random_packing
 
@@ -92,10 +96,11 @@ def _by_grains(form, base, times, evaluations, repeats):
     ((*packing, edge),) = apart(dense_packing, (form, base, LOADED.get(form, 0.72), None))
     packings = [replicated(*packing, edge, number) for number in times]
     costs = _costs(packings, evaluations, repeats)
-    return [
-        {"form": form, "grains": len(radii), **cost}
-        for (_, radii, _), cost in zip(packings, costs, strict=True)
-    ]
+    rows = []
+    for (positions, radii, cell), cost in zip(packings, costs, strict=True):
+        (memory,) = apart(_memory_of_compression, (positions, radii, cell))
+        rows.append({"form": form, "grains": len(radii), **cost, "compression_bytes": memory})
+    return rows
 
 
 def _by_ratio(ratios, grains, evaluations, repeats):
@@ -127,6 +132,26 @@ def _costs(packings, evaluations, repeats):
         memory = (row.pop("peak_bytes") - row.pop("bytes_before")) / len(radii)
         rows.append(row | {"lammps_bytes_per_grain": memory})
     return rows
+
+
+def _memory_of_compression(positions, radii, edge):
+    """Return what `compress` takes for a grain: files, LAMMPS, two saved states, tables [bytes]."""
+    before = peak_bytes()
+    variables = packing_variables(
+        radii,
+        edge * 0.9995,
+        "periodic",
+        approach_steps=1,
+        targets=[edge * 0.999],
+        strain_step=1e-3,
+        # Whatever state it is in, it is saved.
+        step_tolerance=1e9,
+        state_tolerance=1e9,
+    )
+    with tempfile.TemporaryDirectory() as scratch:
+        log = f"{scratch}/log"
+        compress(positions, radii, edge, variables, inputs=INPUTS, folder=scratch, log=log)
+    return (peak_bytes() - before) / len(radii)
 
 
 def _place(form, grains, boundary):
